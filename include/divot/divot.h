@@ -1,0 +1,12 @@
+#pragma once
+
+// The whole public interface.
+#include "divot/errors.h"
+#include "divot/ids.h"
+#include "divot/jobs.h"
+#include "divot/material.h"
+#include "divot/scene.h"
+#include "divot/settings.h"
+#include "divot/vec.h"
+#include "divot/views.h"
+#include "divot/world.h"

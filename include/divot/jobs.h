@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace divot {
+
+/// Worker threads that a caller lends to a world. Nothing that runs on them may depend on how a range is cut.
+class Jobs {
+ public:
+  /// `threads`: 1 runs everything on the calling thread; 0 takes one for each core of the machine.
+  explicit Jobs(int threads = 1);
+  ~Jobs();
+  Jobs(const Jobs&) = delete;
+  Jobs& operator=(const Jobs&) = delete;
+
+  int thread_count() const;
+
+  /// Calls `work(begin, end)` on ranges that cover [0, count) once. Ranges are at least `grain` long, except the last.
+  /// Returns when all are done. A range that fits one grain runs on the calling thread.
+  void for_ranges(std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t begin, std::size_t end)>& work) const;
+
+ private:
+  struct Arena;
+  std::unique_ptr<Arena> arena_;
+};
+
+}  // namespace divot

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+
+namespace divot {
+
+enum class Cohesion : std::uint8_t { lennard_jones, mass_spring };  ///< eq. 6, eq. 1
+enum class Blast : std::uint8_t { scaled, paper };                  ///< docs/physics.md, "Blast"
+enum class Integrator : std::uint8_t { automatic, euler, rk4 };     ///< automatic: rk4 while a blast acts, euler otherwise
+enum class Neighbours : std::uint8_t { grid, kd_tree };             ///< both give the same rows
+
+/// How often a search structure is brought up to date (the paper's Figure 1).
+struct UpdatePolicy {
+  enum class Kind : std::uint8_t { adaptive, every_step, every };
+  Kind kind = Kind::adaptive;  ///< adaptive: when the ground has moved so far that something could be missed
+  int steps = 1;               ///< kind every: rebuilt each so many steps, whatever is missed in between; >= 1
+  friend bool operator==(const UpdatePolicy&, const UpdatePolicy&) = default;
+};
+
+/// How a world is solved. Set by designated initialisers.
+struct Settings {
+  Cohesion cohesion = Cohesion::lennard_jones;
+  Blast blast = Blast::scaled;
+  Integrator integrator = Integrator::automatic;
+  Neighbours neighbours = Neighbours::grid;
+  UpdatePolicy neighbour_update;
+  UpdatePolicy bvh_update;
+  double cutoff = 1.75;  ///< range of cohesion in grid spacings, [1.1, 4]; 1.75 reaches the eight nearest on a square grid
+  double skin = 0.3;     ///< reach added to neighbour rows so that they last, in grid spacings, (0, 2]
+};
+
+}  // namespace divot

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "divot/errors.h"
+#include "divot/ids.h"
+#include "divot/jobs.h"
+#include "divot/scene.h"
+#include "divot/views.h"
+
+namespace divot {
+
+/// What one step met that a caller should know of. Nothing here is an error; the world stays usable.
+struct StepReport {
+  int substeps = 1;             ///< how often forces and motion were evaluated within the step
+  bool substeps_limited = false;  ///< more would have been needed for full stiffness; the ground was softened instead
+  bool not_finite = false;      ///< a value left the range of numbers; the particle or body was put to rest where it was
+};
+
+/// Time and calls of a stage since the world was made.
+struct StageTime {
+  const char* name;
+  double ms = 0;
+  std::uint64_t calls = 0;
+};
+
+/// How often search structures were brought up to date since the world was made.
+struct UpdateCounts {
+  std::uint64_t neighbour_rebuilds = 0;
+  std::uint64_t bvh_refits = 0;
+  std::uint64_t bvh_rebuilds = 0;
+  std::uint64_t missed_pairs = 0;  ///< pairs in range that stale rows did not hold; 0 for adaptive and every_step
+};
+
+/// A crater as the surface shows it.
+struct Crater {
+  Vec3d position;          ///< of the bomb, m
+  double yield = 0;        ///< t of TNT
+  double width = 0;        ///< m, apparent, at original ground level, edge at 5 % of the depth
+  double depth = 0;        ///< m, below original ground
+  double lip_height = 0;   ///< m, above original ground
+  double volume = 0;       ///< m^3 below original ground, within 1.5 widths
+  double paper_width = 0;  ///< m, eq. 10
+};
+
+/// Where the soil went since the world was made, m^3. Displaced and deposited are integrated over the surface, compacted is
+/// summed over the soil's change of density.
+struct SoilVolume {
+  double displaced = 0, compacted = 0, deposited = 0;
+  /// |displaced - compacted - deposited| / displaced; 0 when nothing moved.
+  double relative_error() const;
+};
+
+/// Ground, bodies and bombs that move together. Steps on the threads it was given; several worlds live side by side.
+class World {
+ public:
+  /// Loads the terrain and places what the scene holds. Fails with everything that is wrong with the scene or its files.
+  static Result<World> create(const Scene& scene, std::shared_ptr<const Jobs> jobs = nullptr);
+
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+  ~World();
+
+  /// Advances by Scene::dt. Cost follows the particles that are awake, never the size of the terrain.
+  StepReport step();
+
+  /// Adds a body now. Fails like a scene with that body.
+  Result<BodyId> spawn(const BodySettings& body);
+
+  /// Adds a bomb; one whose time has passed goes off in the next step. Fails like a scene with that bomb.
+  Result<void> add_bomb(const Bomb& bomb);
+
+  double time() const;          ///< s
+  std::uint64_t steps() const;
+  const Scene& scene() const;   ///< as given to create()
+
+  SurfaceView surface() const;
+  ParticleView particles() const;
+  std::vector<BodyView> bodies() const;
+  std::vector<BombView> bombs() const;
+  std::span<const Material> materials() const;  ///< by index, as SurfaceView::materials refers to them
+
+  /// Vertices that moved since the last call, as ascending disjoint ranges. For uploads: send just these.
+  std::vector<DirtyRange> take_dirty();
+
+  /// How far the vertex lies below the ground it started as, m; negative where soil was deposited.
+  float sinkage(std::uint32_t vertex) const;
+
+  /// Height of the ground at x, y in the terrain's coordinates, m; NaN outside it.
+  double ground_height(double x, double y) const;
+
+  std::size_t peak_particles() const;
+  std::vector<StageTime> stages() const;
+  UpdateCounts updates() const;
+  std::vector<Crater> craters() const;  ///< one for each bomb that went off, in order
+  SoilVolume soil_volume() const;
+
+  /// 64 bits over every surface position, awake particle and body. Equal runs give equal bits.
+  std::uint64_t state_hash() const;
+
+ private:
+  struct Impl;
+  explicit World(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace divot
