@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "divot/vec.h"
+
+namespace divot::state {
+
+/// A bomb that went off: what it still does to the ground, and what it did.
+struct Blast {
+  Vec3 ground_zero;      ///< m, on the ground, relative to the surface's origin
+  Vec3 direction;        ///< unit, into the ground: what the pressure pushes along
+  double yield = 0;      ///< t of TNT
+  double start = 0;      ///< s, of the step in which it went off
+  double pulse = 0;      ///< s, duration of the pressure pulse, which falls linearly to 0
+
+  // Ground that fails, ascending by vertex.
+  std::vector<std::uint32_t> column;  ///< [pushed]
+  std::vector<float> push;            ///< [pushed] m/s^2 along `direction` at the start of the pulse
+
+  // Ground on which the ejecta land, ascending by vertex; empty when the model throws none.
+  std::vector<std::uint32_t> landing;  ///< [landing] column
+  std::vector<float> landing_height;   ///< [landing] m gained for each m^3 thrown: sums to 1 over area
+  bool active = true;                  ///< something it pushed still flows
+};
+
+}  // namespace divot::state
