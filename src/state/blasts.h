@@ -14,6 +14,7 @@ struct Blast {
   double yield = 0;      ///< t of TNT
   double start = 0;      ///< s, of the step in which it went off
   double pulse = 0;      ///< s, duration of the pressure pulse, which falls linearly to 0
+  float flow_rate = 0;   ///< 1/s, drag of the ground it makes flow; 0: the ground keeps its skeleton
 
   // Ground that fails, ascending by vertex.
   std::vector<std::uint32_t> column;  ///< [pushed]
@@ -22,7 +23,7 @@ struct Blast {
   // Ground on which the ejecta land, ascending by vertex; empty when the model throws none.
   std::vector<std::uint32_t> landing;  ///< [landing] column
   std::vector<float> landing_height;   ///< [landing] m gained for each m^3 thrown: sums to 1 over area
-  bool active = true;                  ///< something it pushed still flows
+  bool active = true;                  ///< what it pushed may still move
 };
 
 }  // namespace divot::state

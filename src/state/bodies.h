@@ -21,7 +21,7 @@ struct Body {
   std::vector<std::uint32_t> near;     ///< vertices that could touch it before it or they have moved by `near_left`, ascending
   double near_left = -1;               ///< m; negative: look again
   std::uint32_t last_vertex = kNone;   ///< where the half-edge walk starts: last contact
-  std::vector<std::uint32_t> pressed;  ///< columns it presses, ascending by vertex
+  bool touching = false;               ///< pressed ground at the end of the last step
   double patch_width = 0;              ///< b of Bekker's law, m: radius of the patch it touches
   double impact_speed = 0;             ///< m/s, what restitution gives back a share of; 0 when nothing is owed
   double sinkage = 0, max_sinkage = 0; ///< m below the original ground

@@ -5,11 +5,12 @@
 
 #include "divot/ids.h"
 #include "divot/vec.h"
+#include "state/surface.h"
 
 namespace divot::state {
 
-/// What the ground remembers at the vertices that were ever touched: one column of soil under each. Columns are made by
-/// activation/ in the order of first touch and never go away.
+/// What the ground remembers at the vertices that were ever touched: one column of soil under each. Columns are made in the
+/// order of first touch and never go away.
 struct Soil {
   std::vector<std::uint32_t> vertex;    ///< [column] surface vertex
   std::vector<std::uint32_t> particle;  ///< [column] row in Particles while awake, else kNone; activation/
@@ -18,11 +19,20 @@ struct Soil {
   std::vector<float> plastic;           ///< [column] sinkage that load has made permanent, m: where Bekker's curve is re-entered
   std::vector<Vec3> shear;              ///< [column] shear displacement j under the body that touches it, m; contact/
   std::vector<float> area;              ///< [column] horizontal area it stands for, m^2
-  std::vector<float> compacted;         ///< [column] loss of height by compaction, m; settle/
+  std::vector<float> added;             ///< [column] height of soil that landed here, less what was thrown out, m; settle/
   std::size_t size() const { return vertex.size(); }
 
   /// Height at which the soil would stand had it never been pressed, m: sinkage z of Bekker's law counts from here.
   float fresh_height(std::uint32_t c) const { return rest[c].z + plastic[c]; }
+
+  /// Height lost to compaction, m: what is missing of the soil that is there.
+  float compacted(std::uint32_t c) const { return original[c].z + added[c] - rest[c].z; }
 };
+
+/// The column under a vertex, made on first touch. [O(valence) then, O(1) later]
+std::uint32_t touch_column(Surface& surface, Soil& soil, std::uint32_t vertex);
+
+/// Horizontal area a vertex stands for: a third of its faces', m^2. [O(valence)]
+float vertex_area(const Surface& surface, std::uint32_t vertex);
 
 }  // namespace divot::state

@@ -1,0 +1,111 @@
+#include "contact/near.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace divot::contact {
+namespace {
+
+// Could the body touch this vertex after moving by less than `reach`?
+bool could_touch(const state::Body& body, const Vec3& p, double reach) {
+  const double dx = p.x - body.position.x, dy = p.y - body.position.y, wide = body.radius + reach;
+  const double side = wide * wide - dx * dx - dy * dy;
+  return side >= 0 && p.z >= body.position.z - std::sqrt(side);
+}
+
+double horizontal_distance_squared(const state::Body& body, const Vec3& p) {
+  const double dx = p.x - body.position.x, dy = p.y - body.position.y;
+  return dx * dx + dy * dy;
+}
+
+// From `start` over the half-edges to the vertex that no neighbour beats in nearness to the body's axis.
+std::uint32_t walk(const state::Body& body, const state::Surface& surface, std::uint32_t start) {
+  std::uint32_t at = start;
+  for (bool moved = true; moved;) {
+    moved = false;
+    double best = horizontal_distance_squared(body, surface.position[at]);
+    const std::uint32_t here = at;
+    surface.mesh.for_each_neighbour(here, [&](std::uint32_t u) {
+      const double d = horizontal_distance_squared(body, surface.position[u]);
+      if (d < best) best = d, at = u, moved = true;
+    });
+  }
+  return at;
+}
+
+// Every vertex within `reach` of the body's shadow that hangs together with `start` there, ascending. Ring by ring: what
+// a ring's neighbours meet again lies in that ring or the one before it.
+void flood(const state::Body& body, const state::Surface& surface, std::uint32_t start, double reach, Scratch::PerBody& scratch) {
+  const double wide = (body.radius + reach) * (body.radius + reach);
+  auto &found = scratch.found, &previous = scratch.previous, &ring = scratch.ring, &next = scratch.next;
+  const auto has = [](const std::vector<std::uint32_t>& list, std::uint32_t u) {
+    return std::binary_search(list.begin(), list.end(), u);
+  };
+  found.assign(1, start);
+  previous.clear();
+  ring.assign(1, start);
+  while (!ring.empty()) {
+    next.clear();
+    for (const std::uint32_t v : ring)
+      surface.mesh.for_each_neighbour(v, [&](std::uint32_t u) {
+        if (horizontal_distance_squared(body, surface.position[u]) <= wide && !has(ring, u) && !has(previous, u))
+          next.push_back(u);
+      });
+    std::sort(next.begin(), next.end());
+    next.erase(std::unique(next.begin(), next.end()), next.end());
+    found.insert(found.end(), next.begin(), next.end());
+    std::swap(previous, ring);
+    std::swap(ring, next);
+  }
+  std::sort(found.begin(), found.end());
+}
+
+// A walk can be trusted where it ended under the body and the ground there hangs together: no hole or border cuts the shadow.
+bool shadow_is_whole(const state::Body& body, const state::Surface& surface, const std::vector<std::uint32_t>& found,
+                     double reach) {
+  const double edge = body.radius + reach;
+  return std::none_of(found.begin(), found.end(), [&](std::uint32_t v) {
+    return surface.mesh.is_boundary(v) && horizontal_distance_squared(body, surface.position[v]) < edge * edge;
+  });
+}
+
+}  // namespace
+
+Underside underside(const state::Body& body, const Vec3d& position, double x, double y) {
+  const double dx = x - position.x, dy = y - position.y, h_squared = body.radius * body.radius - dx * dx - dy * dy;
+  if (h_squared <= 0) return {};
+  const double h = std::sqrt(h_squared);
+  return {true, position.z - h, {dx / body.radius, dy / body.radius, -h / body.radius}};
+}
+
+void find_near(state::Body& body, const Situation& s, Scratch::PerBody& scratch) {
+  const double travel = length(body.velocity) * s.dt + length(s.gravity) * s.dt * s.dt;
+  const bool adaptive = s.policy.kind == UpdatePolicy::Kind::adaptive;
+  if (adaptive && body.near_left > 2 * travel) return;
+
+  // What is found now serves for a few steps: for half a spacing of travel, or for what this step needs.
+  const double reach = adaptive ? std::max<double>(0.5 * s.surface.spacing, 4 * travel) : 2 * travel + s.ground_moved;
+  bool walked = false;
+  if (adaptive && body.last_vertex != kNone) {
+    const std::uint32_t below = walk(body, s.surface, body.last_vertex);
+    const double edge = body.radius + reach;
+    if (horizontal_distance_squared(body, s.surface.position[below]) < edge * edge) {
+      flood(body, s.surface, below, reach, scratch);
+      walked = shadow_is_whole(body, s.surface, scratch.found, reach);
+    }
+  }
+  if (!walked) {
+    const Vec3 centre = to_float(body.position);
+    const float wide = static_cast<float>(body.radius + reach) * (1 + 1e-5f);
+    math::Aabb column;
+    column.include(centre - Vec3{wide, wide, wide});
+    column.include(Vec3{centre.x + wide, centre.y + wide, math::Aabb::kInf});
+    state::vertices_near(s.surface, s.bvh, column, scratch.region, scratch.found);
+  }
+  body.near.clear();
+  for (const std::uint32_t v : scratch.found)
+    if (could_touch(body, s.surface.position[v], reach)) body.near.push_back(v);
+  body.near_left = reach;
+}
+
+}  // namespace divot::contact

@@ -1,0 +1,99 @@
+#include "settle/settle.h"
+
+#include <algorithm>
+#include <cmath>
+
+
+namespace divot::settle {
+namespace {
+
+void move_surface(const state::Particles& p, state::Surface& surface, Moved& moved) {
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (p.hold[i] == state::Hold::anchor) continue;
+    Vec3& place = surface.position[p.vertex[i]];
+    const float step = length(p.position(i) - place);
+    if (step == 0) continue;
+    place = p.position(i);
+    moved.vertices.push_back(p.vertex[i]);
+    moved.distance = std::max(moved.distance, step);
+    if (p.hold[i] == state::Hold::free) moved.free_distance = std::max(moved.free_distance, step);
+  }
+}
+
+// Soil that a blast drove down in this step: a share of it is thrown, the rest is compacted.
+double throw_soil(const state::Blast& blast, const state::Particles& p, const state::Surface& surface, state::Soil& soil,
+                  std::span<const laws::Medium> media) {
+  double volume = 0;
+  if (blast.landing.empty()) return volume;
+  for (const std::uint32_t column : blast.column) {
+    const std::uint32_t i = soil.particle[column];
+    if (i == kNone || p.flow_rate[i] == 0) continue;
+    const float sunk = std::max(0.0f, surface.position[soil.vertex[column]].z - p.z[i]);
+    const float thrown = media[p.material[i]].ejecta_share * sunk;
+    soil.added[column] -= thrown;
+    volume += thrown * soil.area[column];
+  }
+  return volume;
+}
+
+void land_soil(const state::Blast& blast, float volume, state::Particles& p, state::Surface& surface, state::Soil& soil,
+               Moved& moved) {
+  for (std::size_t k = 0; k < blast.landing.size(); ++k) {
+    const std::uint32_t column = blast.landing[k], i = soil.particle[column];
+    const float height = volume * blast.landing_height[k];
+    soil.added[column] += height;
+    soil.rest[column].z += height;
+    if (i != kNone) {
+      p.z[i] += height;
+      continue;
+    }
+    surface.position[soil.vertex[column]].z += height;
+    moved.vertices.push_back(soil.vertex[column]);
+    moved.distance = std::max(moved.distance, height);
+    moved.free_distance = std::max(moved.free_distance, height);
+  }
+}
+
+// A blast is over when its pulse is and nothing it pushed flows any more.
+bool still_flows(const state::Blast& blast, const state::Particles& p, const state::Soil& soil, double time) {
+  if (time < blast.start + blast.pulse) return true;
+  return std::any_of(blast.column.begin(), blast.column.end(), [&](std::uint32_t column) {
+    const std::uint32_t i = soil.particle[column];
+    return i != kNone && p.flow_rate[i] > 0;
+  });
+}
+
+// For good: what is elastic is given up.
+void hand_over(const state::Particles& p, std::size_t i, state::Soil& soil) {
+  const std::uint32_t column = p.column[i];
+  soil.plastic[column] = std::max(0.0f, soil.fresh_height(column) - p.z[i]);
+  soil.rest[column] = p.position(i);
+}
+
+}  // namespace
+
+void update(state::Particles& p, state::Soil& soil, state::Surface& surface, std::vector<state::Blast>& blasts,
+            std::span<const laws::Medium> media, const Stillness& stillness, double time, Moved& moved) {
+  moved.vertices.clear();
+  moved.distance = moved.free_distance = 0;
+  for (state::Blast& blast : blasts) {
+    if (!blast.active) continue;
+    const double thrown = throw_soil(blast, p, surface, soil, media);
+    if (thrown > 0) land_soil(blast, static_cast<float>(thrown), p, surface, soil, moved);
+  }
+  move_surface(p, surface, moved);
+
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (p.hold[i] != state::Hold::free) continue;
+    const bool still = length(p.velocity(i)) < stillness.speed;
+    p.still_steps[i] = still ? static_cast<std::uint16_t>(std::min(p.still_steps[i] + 1, 0xffff)) : std::uint16_t{0};
+    if (p.still_steps[i] < stillness.steps) continue;
+    p.hold[i] = state::Hold::asleep;
+    p.flow_rate[i] = 0;
+    p.set_velocity(i, {});
+    hand_over(p, i, soil);
+  }
+  for (state::Blast& blast : blasts) blast.active = blast.active && still_flows(blast, p, soil, time);
+}
+
+}  // namespace divot::settle

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "divot/jobs.h"
+#include "laws/medium.h"
+#include "state/blasts.h"
+#include "state/particles.h"
+#include "state/soil.h"
+#include "state/surface.h"
+
+// stage     settle: particles hand their place to the surface, soil that was thrown lands, what is still goes to sleep
+// reads     particles, blasts
+// writes    surface, soil, sleep counters
+// parallel  no: bound by memory, one pass over the awake
+// sums      thrown volume over a blast's columns in order
+namespace divot::settle {
+
+/// What the surface did in this step.
+struct Moved {
+  std::vector<std::uint32_t> vertices;  ///< that moved, repeats allowed
+  float distance = 0;                   ///< m, the furthest
+  float free_distance = 0;              ///< m, the furthest of those no body carried
+};
+
+/// A particle slower than this for so many steps goes to sleep.
+struct Stillness {
+  float speed = 0;  ///< m/s
+  std::uint16_t steps = 1;
+};
+
+/// Moves the surface with its particles. Those that go to sleep give up their elastic rest: where they are is where the ground
+/// now stands.
+void update(state::Particles& particles, state::Soil& soil, state::Surface& surface, std::vector<state::Blast>& blasts,
+            std::span<const laws::Medium> media, const Stillness& stillness, double time, Moved& moved);
+
+}  // namespace divot::settle

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/bvh.h"
+#include "math/aabb.h"
+#include "state/surface.h"
+
+namespace divot::state {
+
+/// Scratch of the queries below: grows once and stays.
+struct RegionScratch {
+  std::vector<std::uint32_t> faces;
+};
+
+/// Vertices of faces whose box in `bvh` meets `box`, ascending, each once: every vertex in the box and some beside it.
+void vertices_near(const Surface& surface, const geometry::Bvh& bvh, const math::Aabb& box, RegionScratch& scratch,
+                   std::vector<std::uint32_t>& vertices);
+
+/// A point of the surface.
+struct SurfacePoint {
+  bool found = false;
+  Vec3 position;                  ///< m, relative to the origin
+  std::uint32_t vertex = kNone;   ///< the nearest corner of its face
+};
+
+/// The highest point of the surface over x, y, relative to the origin; not found outside the surface and over holes.
+SurfacePoint surface_at(const Surface& surface, const geometry::Bvh& bvh, float x, float y, RegionScratch& scratch);
+
+/// Unit normal of a vertex, upward, weighted by the area of its faces. [O(valence)]
+Vec3 vertex_normal(const Surface& surface, std::uint32_t vertex);
+
+}  // namespace divot::state

@@ -1,0 +1,31 @@
+#include "state/soil.h"
+
+namespace divot::state {
+
+float vertex_area(const Surface& surface, std::uint32_t vertex) {
+  float sum = 0;
+  const Vec3 p = surface.position[vertex];
+  surface.mesh.for_each_outgoing(vertex, [&](std::uint32_t h) {
+    const Vec3 a = surface.position[surface.mesh.target(h)] - p;
+    const Vec3 b = surface.position[surface.mesh.origin(geometry::HalfEdgeMesh::prev(h))] - p;
+    sum += a.x * b.y - a.y * b.x;
+  });
+  return sum / 6;
+}
+
+std::uint32_t touch_column(Surface& surface, Soil& soil, std::uint32_t vertex) {
+  std::uint32_t& column = surface.column[vertex];
+  if (column != kNone) return column;
+  column = static_cast<std::uint32_t>(soil.size());
+  soil.vertex.push_back(vertex);
+  soil.particle.push_back(kNone);
+  soil.original.push_back(surface.position[vertex]);
+  soil.rest.push_back(surface.position[vertex]);
+  soil.plastic.push_back(0);
+  soil.shear.push_back({});
+  soil.area.push_back(vertex_area(surface, vertex));
+  soil.added.push_back(0);
+  return column;
+}
+
+}  // namespace divot::state

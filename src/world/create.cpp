@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "contact/near.h"
+#include "terrain/terrain.h"
+#include "world/state.h"
+
+namespace divot {
+namespace {
+
+// Boxes of the BVH are larger than their faces by this share of the spacing, so that most steps need no refit.
+constexpr float kMargin = 0.1f;
+
+const Material* find_material(const Scene& scene, const std::string& name) {
+  for (const Material& m : scene.materials)
+    if (m.name == name) return &m;
+  return find_preset(name);
+}
+
+// Height at which a ball at x, y just rests on the ground: no vertex inside it.
+std::optional<double> resting_height(const World::Impl& w, double x, double y, double radius) {
+  const float r = static_cast<float>(radius), px = static_cast<float>(x), py = static_cast<float>(y);
+  const state::SurfacePoint below = state::surface_at(w.surface, w.tree.bvh, px, py, w.region_scratch);
+  if (!below.found) return std::nullopt;
+  math::Aabb column;
+  column.include(Vec3{px - r, py - r, -math::Aabb::kInf});
+  column.include(Vec3{px + r, py + r, math::Aabb::kInf});
+  std::vector<std::uint32_t> vertices;
+  state::vertices_near(w.surface, w.tree.bvh, column, w.region_scratch, vertices);
+  double height = below.position.z + radius;
+  for (const std::uint32_t v : vertices) {
+    const Vec3 p = w.surface.position[v];
+    const double side = radius * radius - (p.x - x) * (p.x - x) - (p.y - y) * (p.y - y);
+    if (side > 0) height = std::max(height, p.z + std::sqrt(side));
+  }
+  return height;
+}
+
+Result<Vec3d> place_body(const World::Impl& w, const BodySettings& body) {
+  const Vec3d local = body.position - w.surface.origin;
+  if (!body.above_ground) return local;
+  const auto height = resting_height(w, local.x, local.y, body.shape.radius);
+  if (!height)
+    return fail({.key = fmt::format("bodies.{}.position", body.name),
+                 .problem = fmt::format("there is no ground below ({}, {})", body.position.x, body.position.y),
+                 .expected = "a place on the terrain, or a height of its own: position = [x, y, z]"});
+  return Vec3d{local.x, local.y, *height + body.position.z};
+}
+
+Result<Bomb> place_bomb(const World::Impl& w, Bomb bomb) {
+  if (!bomb.above_ground) return bomb;
+  const Vec3d local = bomb.position - w.surface.origin;
+  const state::SurfacePoint ground = state::surface_at(w.surface, w.tree.bvh, static_cast<float>(local.x),
+                                                       static_cast<float>(local.y), w.region_scratch);
+  if (!ground.found)
+    return fail({.key = "bombs",
+                 .problem = fmt::format("there is no ground below ({}, {})", bomb.position.x, bomb.position.y),
+                 .expected = "a place on the terrain, or a height of its own: position = [x, y, z]"});
+  bomb.position.z += ground.position.z + w.surface.origin.z;
+  bomb.above_ground = false;
+  return bomb;
+}
+
+}  // namespace
+
+Result<World> World::create(const Scene& scene, std::shared_ptr<const Jobs> jobs) {
+  if (Errors errors = check(scene); !errors.empty()) return tl::unexpected(std::move(errors));
+  auto surface = terrain::load_terrain(scene);
+  if (!surface) return tl::unexpected(std::move(surface.error()));
+
+  auto impl = std::make_unique<Impl>();
+  impl->scene = scene;
+  impl->jobs = jobs ? std::move(jobs) : std::make_shared<const Jobs>(1);
+  impl->materials.push_back(*find_material(scene, scene.terrain.material));
+  for (const Material& material : impl->materials) impl->media.push_back(laws::make_medium(material));
+  impl->surface = std::move(*surface);
+  impl->lowest = math::Aabb::kInf;
+  for (const Vec3& p : impl->surface.position) impl->lowest = std::min<double>(impl->lowest, p.z);
+  impl->dirty_chunk.assign(impl->surface.position.size() / kDirtyChunk + 1, false);
+  impl->tree.margin = kMargin * impl->surface.spacing;
+  refit::build(impl->tree, impl->surface, *impl->jobs);
+
+  World world(std::move(impl));
+  Errors errors;
+  const auto keep_errors = [&](const auto& result) {
+    if (!result) errors.insert(errors.end(), result.error().begin(), result.error().end());
+  };
+  for (const BodySettings& body : scene.bodies) keep_errors(world.spawn(body));
+  for (const Bomb& bomb : scene.bombs) keep_errors(world.add_bomb(bomb));
+  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  return world;
+}
+
+Result<BodyId> World::spawn(const BodySettings& settings) {
+  Scene alone;
+  alone.bodies.push_back(settings);
+  if (Errors errors = check(alone); !errors.empty()) return tl::unexpected(std::move(errors));
+  const Result<Vec3d> position = place_body(*impl_, settings);
+  if (!position) return tl::unexpected(position.error());
+
+  const double r = settings.shape.radius;
+  state::Body body;
+  body.name = settings.name;
+  body.radius = r;
+  body.mass = settings.mass;
+  body.inertia = 0.4 * settings.mass * r * r;
+  body.restitution = settings.restitution;
+  body.friction = settings.friction;
+  body.position = *position;
+  body.velocity = settings.velocity;
+  body.angular_velocity = settings.angular_velocity;
+  impl_->rigid.add(body);
+  impl_->bodies.push_back(std::move(body));
+  return BodyId{static_cast<std::uint32_t>(impl_->bodies.size() - 1)};
+}
+
+Result<void> World::add_bomb(const Bomb& bomb) {
+  Scene alone;
+  alone.bombs.push_back(bomb);
+  if (Errors errors = check(alone); !errors.empty()) return tl::unexpected(std::move(errors));
+  Result<Bomb> placed = place_bomb(*impl_, bomb);
+  if (!placed) return tl::unexpected(placed.error());
+  impl_->bombs.push_back({*placed, false});
+  std::stable_sort(impl_->bombs.begin(), impl_->bombs.end(),
+                   [](const PlannedBomb& a, const PlannedBomb& b) { return a.bomb.time < b.bomb.time; });
+  return {};
+}
+
+}  // namespace divot

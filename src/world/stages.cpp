@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <cmath>
+
+#include "events/events.h"
+#include "forces/evaluate.h"
+#include "world/state.h"
+
+namespace divot {
+namespace {
+
+// A particle slower than this share of the spacing a second, for this long, is still.
+constexpr double kStillSpeed = 1e-3, kStillTime = 0.2;
+
+// Substeps follow the fastest thing in the particle system: with RK4 and semi-implicit Euler, frequency times step stays below 1.5.
+constexpr double kPhase = 1.5;
+constexpr int kMostSubsteps = 64;
+// Share of a blast's pulse that one substep may take.
+constexpr double kPulseShare = 0.25;
+
+struct Substeps {
+  int count = 1;
+  bool limited = false;
+  laws::GroundStep ground;
+};
+
+// Stiffness of bonds and damping of a particle, per its mass, from the media that are awake; eight bonds around each.
+double fastest_rate(const state::Particles& p, std::span<const laws::Medium> media) {
+  double fastest = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (p.hold[i] != state::Hold::free) continue;
+    const laws::Medium& m = media[p.material[i]];
+    const double ground = m.ground ? m.elastic_stiffness / m.areal_mass : 0;
+    const double frequency = std::sqrt(8 * m.bond_stiffness() / p.mass[i] + ground);
+    const double drag = m.ground ? m.ground_damping / m.areal_mass : 0;
+    const double damping = 8 * m.viscous_damping / p.mass[i] + m.areal_damping / m.areal_mass + drag + p.flow_rate[i];
+    fastest = std::max({fastest, frequency, damping});
+  }
+  return fastest;
+}
+
+bool in_pulse(const state::Blast& blast, double time) { return blast.active && time < blast.start + blast.pulse; }
+
+Substeps plan_substeps(const state::Particles& p, std::span<const laws::Medium> media, std::span<const state::Blast> blasts,
+                       double time, double dt) {
+  double wanted = dt * fastest_rate(p, media) / kPhase;
+  for (const state::Blast& blast : blasts)
+    if (in_pulse(blast, time)) wanted = std::max(wanted, dt / (kPulseShare * blast.pulse));
+  Substeps plan;
+  plan.count = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSubsteps);
+  plan.limited = wanted > kMostSubsteps;
+  const double phase = kPhase * plan.count / dt;
+  plan.ground.stiffness_limit = static_cast<float>(phase * phase);
+  return plan;
+}
+
+// Puts to rest, at the last place that was a number, whatever left the numbers.
+bool rescue(state::Particles& p, const state::Surface& surface) {
+  bool any = false;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (is_finite(p.position(i)) && is_finite(p.velocity(i))) continue;
+    p.set_position(i, surface.position[p.vertex[i]]);
+    p.set_velocity(i, {});
+    any = true;
+  }
+  return any;
+}
+
+bool rescue(state::Body& body, const Vec3d& last) {
+  if (is_finite(body.position) && is_finite(body.velocity) && is_finite(body.angular_velocity)) return false;
+  body.position = last;
+  body.velocity = body.angular_velocity = {};
+  return true;
+}
+
+}  // namespace
+
+void World::Impl::set_off_bombs() {
+  timed(Stage::events, [&] {
+    for (PlannedBomb& planned : bombs) {
+      // A bomb belongs to the step whose start is nearest.
+      if (planned.exploded || planned.bomb.time > time() + 0.5 * scene.dt) continue;
+      planned.exploded = true;
+      blasts.push_back(events::detonate(planned.bomb, scene.solver.blast, time(), scene.dt, surface, soil, tree.bvh, media,
+                                        region_scratch));
+      for (const std::uint32_t column : blasts.back().column) wake.push_back(soil.vertex[column]);
+      for (const std::uint32_t column : blasts.back().landing) wake.push_back(soil.vertex[column]);
+    }
+  });
+}
+
+void World::Impl::move_bodies() {
+  if (bodies.empty()) return;
+  timed(Stage::contact, [&] {
+    const contact::Situation situation{surface,       tree.bvh, soil,
+                                       particles,     media,    scene.gravity,
+                                       scene.dt,      moved.free_distance, scene.solver.bvh_update};
+    contact::move_bodies(bodies, rigid, situation, wake, contact_scratch, *jobs);
+    for (state::Body& body : bodies) body.off_terrain = body.near.empty() && body.position.z < lowest - 2 * body.radius;
+  });
+}
+
+bool World::Impl::wake_and_sleep() {
+  return timed(Stage::activation, [&] {
+    const bool changed = activation::update(particles, soil, surface, media, wake, activation_scratch);
+    contact::carry(bodies, particles, soil, surface, scene.dt, contact_scratch);
+    // Ground that a blast makes flow does so until it comes to rest.
+    for (const state::Blast& blast : blasts)
+      if (blast.active && blast.start == time())
+        for (const std::uint32_t column : blast.column)
+          if (const std::uint32_t i = soil.particle[column]; i != kNone && particles.hold[i] == state::Hold::free)
+            particles.flow_rate[i] = std::max(particles.flow_rate[i], blast.flow_rate);
+    std::size_t awake = 0;
+    for (const state::Hold hold : particles.hold) awake += hold != state::Hold::anchor;
+    peak_particles = std::max(peak_particles, awake);
+    return changed;
+  });
+}
+
+void World::Impl::find_neighbours(bool particles_changed) {
+  timed(Stage::neighbours, [&] {
+    const neighbours::Reach reach{static_cast<float>(scene.solver.cutoff) * surface.spacing,
+                                  static_cast<float>(scene.solver.skin) * surface.spacing, scene.solver.neighbours,
+                                  scene.solver.neighbour_update};
+    neighbours::update(particles, bonds, neighbours, reach, particles_changed, *jobs);
+  });
+}
+
+void World::Impl::move_particles(StepReport& report) {
+  if (particles.size() == 0) return;
+  const Substeps plan = plan_substeps(particles, media, blasts, time(), scene.dt);
+  report.substeps = plan.count;
+  report.substeps_limited = plan.limited;
+  const forces::Field field{bonds, soil, media, blasts, scene.solver.cohesion,
+                            static_cast<float>(scene.solver.cutoff) * surface.spacing, plan.ground};
+  const integration::Forces evaluate = [&](const state::MotionView& motion, double at) {
+    timed(Stage::forces, [&] { forces::evaluate(particles, motion, at, field, *jobs); });
+    return integration::ForceView{particles.fx, particles.fy, particles.fz};
+  };
+  state::Particles& p = particles;
+  const state::MotionView motion{p.x, p.y, p.z, p.vx, p.vy, p.vz};
+  const double h = scene.dt / plan.count;
+  for (int k = 0; k < plan.count; ++k) {
+    const double at = time() + k * h;
+    const bool blast_acts = std::any_of(blasts.begin(), blasts.end(), [&](const state::Blast& b) { return in_pulse(b, at); });
+    const bool rk4 = scene.solver.integrator == Integrator::rk4 || (scene.solver.integrator == Integrator::automatic && blast_acts);
+    timed(Stage::integration, [&] {
+      if (rk4)
+        integration::rk4(motion, p.mass, at, h, evaluate, integration_scratch, *jobs);
+      else
+        integration::euler(motion, p.mass, at, h, evaluate, *jobs);
+    });
+    timed(Stage::forces, [&] { forces::yield(p, bonds, soil, media, plan.ground, *jobs); });
+  }
+  report.not_finite = rescue(p, surface);
+}
+
+void World::Impl::settle_ground() {
+  timed(Stage::settle, [&] {
+    const settle::Stillness stillness{static_cast<float>(kStillSpeed) * surface.spacing,
+                                      static_cast<std::uint16_t>(std::clamp(std::ceil(kStillTime / scene.dt), 2.0, 60000.0))};
+    settle::update(particles, soil, surface, blasts, media, stillness, time() + scene.dt, moved);
+    for (const std::uint32_t vertex : moved.vertices) dirty_chunk[vertex / kDirtyChunk] = true;
+  });
+}
+
+void World::Impl::refit_tree() {
+  timed(Stage::refit, [&] { refit::update(tree, surface, moved.vertices, moved.distance, scene.solver.bvh_update, *jobs); });
+}
+
+}  // namespace divot

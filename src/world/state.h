@@ -1,0 +1,85 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "activation/activation.h"
+#include "contact/contact.h"
+#include "core/timers.h"
+#include "divot/world.h"
+#include "integration/integrators.h"
+#include "laws/medium.h"
+#include "neighbours/neighbours.h"
+#include "refit/refit.h"
+#include "settle/settle.h"
+#include "state/blasts.h"
+#include "state/bodies.h"
+#include "state/particles.h"
+#include "state/soil.h"
+#include "state/surface.h"
+
+namespace divot {
+
+/// Rows of the timers, in running order.
+enum class Stage { events, contact, activation, neighbours, forces, integration, settle, refit, count };
+inline constexpr const char* kStageNames[] = {"events", "contact",     "activation", "neighbours",
+                                              "forces", "integration", "settle",     "refit"};
+
+/// A bomb and whether it has gone off.
+struct PlannedBomb {
+  Bomb bomb;  ///< with its position resolved against the ground
+  bool exploded = false;
+};
+
+/// Everything a world owns. Only world/ sees it whole.
+struct World::Impl {
+  Scene scene;
+  std::shared_ptr<const Jobs> jobs;
+  std::vector<Material> materials;
+  std::vector<laws::Medium> media;
+
+  state::Surface surface;
+  state::Soil soil;
+  state::Particles particles;
+  state::Bonds bonds;
+  std::vector<state::Body> bodies;
+  std::vector<PlannedBomb> bombs;
+  std::vector<state::Blast> blasts;
+  double lowest = 0;  ///< m, of the terrain as it was loaded
+
+  refit::Tree tree;
+  neighbours::Index neighbours;
+  contact::RigidBodies rigid;
+  settle::Moved moved;
+  std::vector<std::uint32_t> wake;
+  std::vector<bool> dirty_chunk;  ///< [vertex / kDirtyChunk]
+
+  activation::Scratch activation_scratch;
+  contact::Scratch contact_scratch;
+  integration::Scratch integration_scratch;
+  mutable state::RegionScratch region_scratch;
+
+  std::uint64_t step_count = 0;
+  std::size_t peak_particles = 0;
+  core::Timers<static_cast<std::size_t>(Stage::count)> timers;
+
+  double time() const { return static_cast<double>(step_count) * scene.dt; }
+  template <class Work>
+  auto timed(Stage stage, Work&& work) {
+    return timers.time(static_cast<std::size_t>(stage), work);
+  }
+
+  // The stages, with their inputs and outputs taken from the state (stages.cpp).
+  void set_off_bombs();
+  void move_bodies();
+  bool wake_and_sleep();
+  void find_neighbours(bool particles_changed);
+  void move_particles(StepReport& report);
+  void settle_ground();
+  void refit_tree();
+};
+
+/// Vertices are marked dirty in runs of so many.
+inline constexpr std::uint32_t kDirtyChunk = 64;
+
+}  // namespace divot

@@ -1,0 +1,19 @@
+#include "world/state.h"
+
+namespace divot {
+
+StepReport World::step() {
+  Impl& w = *impl_;
+  StepReport report;
+  w.set_off_bombs();
+  w.move_bodies();
+  const bool particles_changed = w.wake_and_sleep();
+  w.find_neighbours(particles_changed);
+  w.move_particles(report);
+  w.settle_ground();
+  w.refit_tree();
+  ++w.step_count;
+  return report;
+}
+
+}  // namespace divot
