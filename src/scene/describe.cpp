@@ -1,0 +1,293 @@
+#include "scene/describe.h"
+
+namespace divot::scene {
+namespace {
+
+// Bounds that no sensible scene meets. They keep squares and products of lengths, speeds and masses inside float's
+// range.
+constexpr double kFar = 1e8;      // m: beyond every projected coordinate
+constexpr double kLong = 1e5;     // m: spacings and radii
+constexpr double kFast = 1e5;     // m/s, and rad/s
+constexpr double kHeavy = 1e12;   // kg, N/m, Pa and what else belongs to materials
+constexpr double kForever = 1e9;  // s
+
+// Ids count to 2^32 and a vertex has six half-edges.
+constexpr double kMostVertices = 7e8;
+
+constexpr const char* kCohesions[] = {"lennard_jones", "mass_spring"};
+constexpr const char* kBlasts[] = {"scaled", "paper"};
+constexpr const char* kIntegrators[] = {"auto", "euler", "rk4"};
+constexpr const char* kNeighbours[] = {"grid", "kd_tree"};
+constexpr const char* kFormats[] = {"ply", "tif", "csv"};
+
+template <class T, class Variant>
+T& as(Variant& variant) {
+  if (T* held = std::get_if<T>(&variant)) return *held;
+  return variant.template emplace<T>();
+}
+
+void describe_grid(Visitor& v, GridTerrain& grid) {
+  v.table({.name = "grid", .example = "grid = { columns = 37, rows = 40, spacing = 10.9 }"}, [&] {
+    v.whole({.name = "columns", .range = between(2, 1e6), .meaning = "vertices along x", .required = true},
+            grid.columns);
+    v.whole({.name = "rows", .range = between(2, 1e6), .meaning = "vertices along y", .required = true}, grid.rows);
+    v.number({.name = "spacing",
+              .unit = "m",
+              .range = above(0, kLong),
+              .meaning = "distance between neighbouring vertices",
+              .required = true},
+             grid.spacing);
+  });
+}
+
+void describe_dem(Visitor& v, DemTerrain& dem) {
+  v.text({.name = "dem",
+          .meaning = "elevation model in a raster format GDAL reads; a relative path starts at the scene's folder",
+          .default_text = "none"},
+         dem.path);
+  v.text({.name = "crs",
+          .meaning = "coordinate system of a `dem` that cannot say it itself, as `EPSG:4326`",
+          .default_text = "what the file says"},
+         dem.crs);
+  v.whole({.name = "band", .range = between(1, 65535), .meaning = "band of the `dem` that holds heights"}, dem.band);
+}
+
+void describe_terrain(Visitor& v, TerrainSource& terrain) {
+  static constexpr const char* kMesh[] = {"mesh"};
+  static constexpr const char* kMap[] = {"material_map"};
+  static constexpr const char* kRefine[] = {"refine"};
+  static constexpr const char* kDemOnly[] = {"crs", "band"};
+  static constexpr Branch kShapes[] = {{"grid", {}, "grid = { columns = 37, rows = 40, spacing = 10.9 }"},
+                                       {"dem", kDemOnly, "dem = \"file.tif\""}};
+  v.unsupported({kMesh, "meshes are not supported", "this version reads grid and dem"});
+  v.unsupported({kMap, "material maps are not supported", "this version knows one material for the whole terrain"});
+  v.unsupported({kRefine, "refinement is not supported", "this version keeps the triangles the terrain starts with"});
+  for (const std::size_t shape : v.branches(kShapes, terrain.shape.index())) {
+    if (shape == 0) describe_grid(v, as<GridTerrain>(terrain.shape));
+    if (shape == 1) describe_dem(v, as<DemTerrain>(terrain.shape));
+  }
+  v.text({.name = "material", .meaning = "what the ground is made of: a preset or a material of the file"},
+         terrain.material);
+  v.whole({.name = "max_vertices",
+           .range = between(4, kMostVertices),
+           .meaning = "a larger terrain is refused before memory is taken"},
+          terrain.max_vertices);
+}
+
+void describe_shape(Visitor& v, Sphere& sphere) {
+  static constexpr const char* kLater[] = {"box", "cylinder", "capsule", "hull", "mesh"};
+  v.table({.name = "shape", .required = true, .example = "shape = { sphere = { radius = 1.0 } }"}, [&] {
+    v.unsupported({kLater, "this shape is not supported", "this version knows spheres: sphere = { radius = 1.0 }"});
+    v.table({.name = "sphere", .required = true, .example = "sphere = { radius = 1.0 }"}, [&] {
+      v.number({.name = "radius", .unit = "m", .range = above(0, kLong), .meaning = "of the ball", .required = true},
+               sphere.radius);
+    });
+  });
+}
+
+void describe_body(Visitor& v, BodySettings& body) {
+  v.text({.name = "name", .meaning = "unique; names the body in results", .default_text = "`body1`, `body2`, ..."},
+         body.name);
+  describe_shape(v, body.shape);
+  v.number({.name = "mass", .unit = "kg", .range = above(0, kHeavy), .meaning = "of the body", .required = true},
+           body.mass);
+  v.place({.name = "position",
+           .unit = "m",
+           .range = between(-kFar, kFar),
+           .meaning = "of its centre; two numbers put it on the ground at x, y",
+           .required = true},
+          {.name = "above_ground",
+           .meaning = "position's z is the height of the lowest point above the ground there",
+           .default_text = "`false`; `true` with two numbers"},
+          body.position, body.above_ground);
+  v.vector({.name = "velocity", .unit = "m/s", .range = between(-kFast, kFast), .meaning = "at the start"},
+           body.velocity);
+  v.vector({.name = "angular_velocity", .unit = "rad/s", .range = between(-kFast, kFast), .meaning = "at the start"},
+           body.angular_velocity);
+  v.number({.name = "restitution", .range = between(0, 1), .meaning = "multiplied by the material's"},
+           body.restitution);
+  v.number({.name = "friction", .range = between(0, 100), .meaning = "Coulomb's, with soil and with other bodies"},
+           body.friction);
+}
+
+void describe_bomb(Visitor& v, Bomb& bomb) {
+  v.number({.name = "time", .unit = "s", .range = between(0, kForever), .meaning = "when it goes off"}, bomb.time);
+  v.place(
+      {.name = "position",
+       .unit = "m",
+       .range = between(-kFar, kFar),
+       .meaning = "of the charge; two numbers put it on the ground at x, y; below the ground it goes off at the ground",
+       .required = true},
+      {.name = "above_ground",
+       .meaning = "position's z is the height of burst above the ground there",
+       .default_text = "`false`; `true` with two numbers"},
+      bomb.position, bomb.above_ground);
+  v.number({.name = "yield",
+            .unit = "t of TNT",
+            .range = above(0, 1e8),
+            .meaning = "of the charge, in metric tons",
+            .required = true},
+           bomb.yield);
+}
+
+void describe_materials(Visitor& v, std::vector<Material>& materials) {
+  v.table({.name = "materials"}, [&] {
+    const std::vector<std::string> names = v.material_names(materials);
+    materials.resize(names.size());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      v.table({.name = names[i].c_str()}, [&] {
+        materials[i].name = names[i];
+        v.base({.name = "base",
+                .meaning = "preset or material of the file that gives every key not written here",
+                .default_text = "the preset of that name, else `paper`"},
+               materials[i], std::span(materials).first(i));
+        describe(v, materials[i]);
+      });
+    }
+  });
+}
+
+void describe_solver(Visitor& v, Settings& solver) {
+  v.choice({.name = "cohesion", .meaning = "force between surface particles: eq. 6 or eq. 1"}, kCohesions,
+           solver.cohesion);
+  v.choice({.name = "blast", .meaning = "what a bomb does: held against measured craters, or eq. 8-14 to the letter"},
+           kBlasts, solver.blast);
+  v.choice({.name = "integrator", .meaning = "`auto`: rk4 while a blast acts, euler otherwise"}, kIntegrators,
+           solver.integrator);
+  v.choice({.name = "neighbours", .meaning = "search structure; both give the same rows"}, kNeighbours,
+           solver.neighbours);
+  v.policy({.name = "neighbour_update", .meaning = "when neighbour rows are rebuilt"}, solver.neighbour_update);
+  v.policy({.name = "bvh_update", .meaning = "when the bounding volumes are brought up to date"}, solver.bvh_update);
+  v.number({.name = "cutoff", .unit = "spacings", .range = between(1.1, 4), .meaning = "range of cohesion"},
+           solver.cutoff);
+  v.number({.name = "skin",
+            .unit = "spacings",
+            .range = above(0, 2),
+            .meaning = "reach added to neighbour rows so that they last"},
+           solver.skin);
+}
+
+void describe_output(Visitor& v, OutputSettings& output) {
+  v.number({.name = "every",
+            .unit = "s",
+            .range = between(0, kForever),
+            .meaning = "between frames of `formats`; 0: only the final state"},
+           output.every);
+  v.options({.name = "formats", .meaning = "what a frame is written as"}, kFormats, output.formats);
+}
+
+void describe_particles(Visitor& v, Material& m) {
+  v.number({.name = "reference_spacing",
+            .unit = "m",
+            .range = above(0, kLong),
+            .meaning = "spacing that mass, `e0` and damping are given for"},
+           m.reference_spacing);
+  v.number({.name = "particle_mass", .unit = "kg", .range = above(0, kHeavy), .meaning = "of one surface particle"},
+           m.particle_mass);
+  v.number({.name = "e0",
+            .unit = "J",
+            .range = between(0, kHeavy),
+            .meaning = "dissociation energy of eq. 6",
+            .field = "dissociation_energy"},
+           m.dissociation_energy);
+  v.number({.name = "m",
+            .range = above(0, 20),
+            .meaning = "exponent of attraction of eq. 6",
+            .field = "attraction_exponent"},
+           m.attraction_exponent);
+  v.number({.name = "n",
+            .range = above(0, 20),
+            .meaning = "exponent of repulsion of eq. 6, above `m`",
+            .field = "repulsion_exponent"},
+           m.repulsion_exponent);
+  v.number({.name = "spring_stiffness",
+            .unit = "N/m",
+            .range = between(0, kHeavy),
+            .meaning = "of eq. 1; used with `cohesion = \"mass_spring\"`"},
+           m.spring_stiffness);
+  v.number({.name = "yield_strain",
+            .range = above(0, 10),
+            .meaning = "bonds keep their length up to this strain and flow beyond it"},
+           m.yield_strain);
+  v.number({.name = "viscous_damping", .unit = "N s/m", .range = between(0, kHeavy), .meaning = "of eq. 2"},
+           m.viscous_damping);
+  v.number({.name = "global_damping", .unit = "kg/s", .range = between(0, kHeavy), .meaning = "of eq. 3"},
+           m.global_damping);
+}
+
+void describe_ground(Visitor& v, Material& m) {
+  v.flag({.name = "ground", .meaning = "`false`: the bare particle sheet of the paper, with nothing below it"},
+         m.ground);
+  v.number({.name = "kc",
+            .unit = "N/m^(n+1)",
+            .range = between(0, kHeavy),
+            .meaning = "Bekker's cohesive modulus",
+            .field = "bekker_kc"},
+           m.bekker_kc);
+  v.number({.name = "kphi",
+            .unit = "N/m^(n+2)",
+            .range = between(0, kHeavy),
+            .meaning = "Bekker's frictional modulus; not 0 together with `kc`",
+            .field = "bekker_kphi"},
+           m.bekker_kphi);
+  v.number({.name = "bekker_n", .range = above(0, 3), .meaning = "Bekker's exponent of sinkage"}, m.bekker_n);
+  v.number(
+      {.name = "elastic_stiffness", .unit = "Pa/m", .range = above(0, kHeavy), .meaning = "of unloading and reloading"},
+      m.elastic_stiffness);
+  v.number({.name = "ground_damping_ratio",
+            .range = between(0, 100),
+            .meaning = "of the ground under a free particle; 1 is critical"},
+           m.ground_damping_ratio);
+  v.number({.name = "cohesion", .unit = "Pa", .range = between(0, kHeavy), .meaning = "Mohr and Coulomb's c"},
+           m.cohesion);
+  v.number(
+      {.name = "friction_angle_deg", .unit = "degrees", .range = between(0, 60), .meaning = "Mohr and Coulomb's phi"},
+      m.friction_angle_deg);
+  v.number({.name = "shear_modulus",
+            .unit = "m",
+            .range = above(0, kLong),
+            .meaning = "Janosi and Hanamoto's K: shear displacement scale"},
+           m.shear_modulus);
+  v.number({.name = "restitution", .range = between(0, 1), .meaning = "multiplied by the body's"}, m.restitution);
+}
+
+void describe_blast(Visitor& v, Material& m) {
+  v.number({.name = "blast_strength",
+            .unit = "Pa",
+            .range = above(0, kHeavy),
+            .meaning = "pressure the soil withstands; sets a crater's width"},
+           m.blast_strength);
+  v.number({.name = "blast_drag",
+            .unit = "Pa s/m",
+            .range = above(0, kHeavy),
+            .meaning = "resistance of the soil that flows; sets a crater's depth"},
+           m.blast_drag);
+  v.number({.name = "ejecta_share",
+            .range = {.low = 0, .high = 1, .high_open = true},
+            .meaning = "share of a crater's volume on lip and blanket; the rest is compacted"},
+           m.ejecta_share);
+}
+
+}  // namespace
+
+void describe(Visitor& v, Material& material) {
+  describe_particles(v, material);
+  describe_ground(v, material);
+  describe_blast(v, material);
+}
+
+void describe(Visitor& v, Scene& scene) {
+  v.number({.name = "duration", .unit = "s", .range = above(0, kForever), .meaning = "simulated time"}, scene.duration);
+  v.number({.name = "dt", .unit = "s", .range = above(0, 1), .meaning = "time step; at most `duration`"}, scene.dt);
+  v.vector({.name = "gravity", .unit = "m/s^2", .range = between(-1000, 1000), .meaning = "z is up"}, scene.gravity);
+  v.whole({.name = "seed", .range = {.low = 0}, .meaning = "of random numbers"}, scene.seed);
+  v.table({.name = "terrain", .required = true, .example = "[terrain] with grid = { ... } or dem = \"file.tif\""},
+          [&] { describe_terrain(v, scene.terrain); });
+  describe_materials(v, scene.materials);
+  v.list({.name = "bodies"}, scene.bodies, [&](BodySettings& body) { describe_body(v, body); });
+  v.list({.name = "bombs"}, scene.bombs, [&](Bomb& bomb) { describe_bomb(v, bomb); });
+  v.table({.name = "solver"}, [&] { describe_solver(v, scene.solver); });
+  v.table({.name = "output"}, [&] { describe_output(v, scene.output); });
+}
+
+}  // namespace divot::scene

@@ -1,0 +1,124 @@
+#include <array>
+#include <cmath>
+
+#include "divot/material.h"
+
+namespace divot {
+namespace {
+
+/// A soil as it is measured. The particle system's and the blast's values follow from it.
+struct Soil {
+  const char* name;
+  double density;            ///< kg/m^3
+  double kc, kphi, n;        ///< N/m^(n+1), N/m^(n+2), 1
+  double elastic_stiffness;  ///< Pa/m
+  double cohesion;           ///< Pa
+  double friction_angle_deg;
+  double shear_modulus;  ///< m
+  double restitution;
+  double yield_strain;
+  double crater_radius, crater_depth;  ///< over the cube root of the charge, m/kg^(1/3)
+};
+
+constexpr Soil kDrySand = {
+    .name = "dry_sand",
+    .density = 1600,               // dry quartz sand: 1500 to 1700
+    .kc = 0.99e3,                  // [Wong 2008] "Dry sand (LLL)"
+    .kphi = 1528.4e3,              // the same
+    .n = 1.1,                      // the same
+    .elastic_stiffness = 93.97e6,  // Keweenaw Research Center, fine grain dry: k0 of unloading
+    .cohesion = 1.04e3,            // [Wong 2008] "Dry sand (LLL)"
+    .friction_angle_deg = 28,      // the same
+    .shear_modulus = 0.02,         // typical of sand, not measured with the rest
+    .restitution = 0.1,            // engineering value: sand swallows a drop
+    .yield_strain = 0.02,          // engineering value: grains slide almost at once
+    .crater_radius = 0.297,        // [TM 5-855-1] dry sand
+    .crater_depth = 0.149,         // the same
+};
+
+constexpr Soil kMud = {
+    .name = "mud",
+    .density = 1800,            // sandy loam at 32 % moisture
+    .kc = 0.77e3,               // [Wong 2008] "Sandy loam (Hanamoto)", 32 %
+    .kphi = 51.91e3,            // the same
+    .n = 0.5,                   // the same
+    .elastic_stiffness = 10e6,  // engineering value: 200 times kphi, as Chrono's SCM examples have it (4e7 over 0.2e6)
+    .cohesion = 5.17e3,         // [Wong 2008] "Sandy loam (Hanamoto)", 32 %
+    .friction_angle_deg = 11,   // the same
+    .shear_modulus = 0.02,      // typical, not measured with the rest
+    .restitution = 0.05,        // engineering value: mud swallows nearly all of a drop
+    .yield_strain = 0.05,       // engineering value: wet soil stretches further than dry before it flows
+    .crater_radius = 0.456,     // [TM 5-855-1] wet clay
+    .crater_depth = 0.228,      // the same
+};
+
+constexpr Soil kAsphalt = {
+    .name = "asphalt",
+    .density = 2400,            // asphalt concrete: 2300 to 2450
+    .kc = 0,                    // engineering value: stiffness does not depend on the plate
+    .kphi = 5e9,                // engineering value: a truck's tyre at 0.7 MPa sinks 0.14 mm
+    .n = 1,                     // engineering value: linear
+    .elastic_stiffness = 2e10,  // modulus of 2 GPa at 20 degrees Celsius over a layer of 0.1 m
+    .cohesion = 1e6,            // engineering value: triaxial tests of mixes give 0.2 to 1 MPa
+    .friction_angle_deg = 40,   // engineering value: the same tests give 35 to 45
+    .shear_modulus = 0.001,     // engineering value: shears at 1 % of the layer
+    .restitution = 0.7,         // engineering value: a hard ball on a road
+    .yield_strain = 0.005,      // engineering value: cracks at a few tenths of a percent
+    .crater_radius = 0.151,     // [TM 5-855-1] concrete slab
+    .crater_depth = 0.079,      // the same
+};
+
+// The preset `paper` as the scale that blasts are measured by: its craters over the cube root of the charge,
+// m/kg^(1/3).
+constexpr double kPaperRadius = 0.3566;  // half of eq. 10's 0.7132
+constexpr double kPaperDepth = 0.143;    // what its strength and drag give
+
+/// Particles of a layer 0.1 m thick, 1 m apart.
+Material material_of(const Soil& soil) {
+  constexpr double kLayer = 0.1;  // m
+  const Material paper;
+  Material m;
+  m.name = soil.name;
+  m.reference_spacing = 1;
+  m.particle_mass = soil.density * kLayer;
+  // A bond's strongest pull, 223.08/300 e0 / r0 for exponents 2 and 4, is the soil's cohesion over the bond's section.
+  m.dissociation_energy = soil.cohesion * kLayer / (223.08 / 300);
+  // As stiff as that bond at rest: e0 m n / r0^2.
+  m.spring_stiffness = 8 * m.dissociation_energy;
+  m.yield_strain = soil.yield_strain;
+  // The damping ratio and the rate of the paper's 2 N s/m and 2 kg/s.
+  m.viscous_damping = paper.viscous_damping *
+                      std::sqrt(m.spring_stiffness / paper.spring_stiffness * m.particle_mass / paper.particle_mass);
+  m.global_damping = paper.global_damping * m.particle_mass / paper.particle_mass;
+  m.bekker_kc = soil.kc;
+  m.bekker_kphi = soil.kphi;
+  m.bekker_n = soil.n;
+  m.elastic_stiffness = soil.elastic_stiffness;
+  m.cohesion = soil.cohesion;
+  m.friction_angle_deg = soil.friction_angle_deg;
+  m.shear_modulus = soil.shear_modulus;
+  m.restitution = soil.restitution;
+  // A blast's pressure falls with the cube of distance and depth goes with strength over drag.
+  const double ratio = kPaperRadius / soil.crater_radius;
+  const double strength = ratio * ratio * ratio;
+  m.blast_strength = paper.blast_strength * strength;
+  m.blast_drag = paper.blast_drag * strength * kPaperDepth / soil.crater_depth;
+  return m;
+}
+
+}  // namespace
+
+std::span<const Material> material_presets() {
+  static const std::array<Material, 4> presets = {Material{}, material_of(kDrySand), material_of(kMud),
+                                                  material_of(kAsphalt)};
+  return presets;
+}
+
+const Material* find_preset(std::string_view name) {
+  for (const Material& preset : material_presets()) {
+    if (preset.name == name) return &preset;
+  }
+  return nullptr;
+}
+
+}  // namespace divot
