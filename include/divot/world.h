@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "divot/errors.h"
 #include "divot/ids.h"
 #include "divot/jobs.h"
+#include "divot/raster.h"
 #include "divot/scene.h"
 #include "divot/views.h"
 
@@ -94,7 +96,10 @@ class World {
   /// Height of the ground at x, y in the terrain's coordinates, m; NaN outside it.
   double ground_height(double x, double y) const;
 
-  std::size_t peak_particles() const;
+  /// Heights on the grid the terrain came from, for rasters; nothing for terrain that came from a mesh. [O(vertices)]
+  std::optional<RasterView> raster() const;
+
+  std::size_t peak_particles() const;  ///< most particles awake at once so far
   std::vector<StageTime> stages() const;
   UpdateCounts updates() const;
   std::vector<Crater> craters() const;  ///< one for each bomb that went off, in order
@@ -103,8 +108,9 @@ class World {
   /// 64 bits over every surface position, awake particle and body. Equal runs give equal bits.
   std::uint64_t state_hash() const;
 
+  struct Impl;  ///< everything a world owns; of no use outside the library
+
  private:
-  struct Impl;
   explicit World(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

@@ -1,13 +1,6 @@
 #include "contact/rigid_bodies.h"
 
-// Bullet's headers are not written for our warnings.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wpedantic"
-#pragma GCC diagnostic ignored "-Wunused-parameter"
 #include <btBulletDynamicsCommon.h>
-#pragma GCC diagnostic pop
 
 #include <vector>
 

@@ -64,7 +64,7 @@ void rebuild(const state::Particles& p, state::Bonds& bonds, Index& index, const
     index.kd_tree.build(p.x, p.y, p.z);
     index.kd_tree.rows(radius, index.rows, jobs);
   } else {
-    index.grid.build(p.x, p.y, p.z, radius);
+    index.grid.build(p.x, p.y, p.z);
     index.grid.rows(radius, index.rows, jobs);
   }
   bonds.start = index.rows.start;

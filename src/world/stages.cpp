@@ -88,14 +88,17 @@ void World::Impl::set_off_bombs() {
   });
 }
 
-void World::Impl::move_bodies() {
+void World::Impl::move_bodies(StepReport& report) {
   if (bodies.empty()) return;
   timed(Stage::contact, [&] {
     const contact::Situation situation{surface,       tree.bvh, soil,
                                        particles,     media,    scene.gravity,
                                        scene.dt,      moved.free_distance, scene.solver.bvh_update};
     contact::move_bodies(bodies, rigid, situation, wake, contact_scratch, *jobs);
-    for (state::Body& body : bodies) body.off_terrain = body.near.empty() && body.position.z < lowest - 2 * body.radius;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      report.not_finite |= rescue(bodies[i], contact_scratch.before[i]);
+      bodies[i].off_terrain = bodies[i].near.empty() && bodies[i].position.z < lowest - 2 * bodies[i].radius;
+    }
   });
 }
 
@@ -151,7 +154,7 @@ void World::Impl::move_particles(StepReport& report) {
     });
     timed(Stage::forces, [&] { forces::yield(p, bonds, soil, media, plan.ground, *jobs); });
   }
-  report.not_finite = rescue(p, surface);
+  report.not_finite |= rescue(p, surface);
 }
 
 void World::Impl::settle_ground() {

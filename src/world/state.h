@@ -71,7 +71,7 @@ struct World::Impl {
 
   // The stages, with their inputs and outputs taken from the state (stages.cpp).
   void set_off_bombs();
-  void move_bodies();
+  void move_bodies(StepReport& report);
   bool wake_and_sleep();
   void find_neighbours(bool particles_changed);
   void move_particles(StepReport& report);

@@ -6,7 +6,7 @@ StepReport World::step() {
   Impl& w = *impl_;
   StepReport report;
   w.set_off_bombs();
-  w.move_bodies();
+  w.move_bodies(report);
   const bool particles_changed = w.wake_and_sleep();
   w.find_neighbours(particles_changed);
   w.move_particles(report);
