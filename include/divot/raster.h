@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace divot {
+
+/// The ground as a north-up raster, for files and for other programs: a copy.
+struct RasterView {
+  std::uint32_t columns = 0, rows = 0;
+  double x0 = 0, y0 = 0;       ///< centre of the first pixel, the north-western one, in the terrain's coordinates, m
+  double dx = 0, dy = 0;       ///< size of a pixel, m, > 0: x grows with the column, y falls with the row
+  std::string crs;             ///< WKT of the coordinates; empty when unknown
+  std::vector<float> heights;  ///< [row * columns + column] m, row 0 northernmost
+  std::vector<std::uint8_t> holes;  ///< [row * columns + column] 1: no data there, the height means nothing
+};
+
+}  // namespace divot
