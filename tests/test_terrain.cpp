@@ -71,7 +71,6 @@ Error load_error(const Scene& scene) {
     ADD_FAILURE() << "loaded";
     return {};
   }
-  std::printf("  %s\n", surface.error().front().text().c_str());
   return surface.error().front();
 }
 
@@ -326,7 +325,7 @@ TEST_F(Terrain, JacksboroInDegreesBecomesMetres) {
     high = std::max(high, height(s, v));
   }
   EXPECT_NEAR(low, 236, 5);
-  EXPECT_NEAR(high, 1076, 10);
+  EXPECT_NEAR(high, 1076, 2);
   EXPECT_LT(hole_count(s), s.mesh.vertex_count() / 50);
   EXPECT_NEAR(s.origin.x, 0, 200);
   EXPECT_NEAR(s.origin.y, 0, 200);

@@ -1,5 +1,7 @@
 #include "output/geotiff.h"
 
+#include <cpl_conv.h>
+
 #include <array>
 #include <vector>
 
@@ -55,6 +57,8 @@ Result<void> write_geotiff(const std::string& path, const RasterView& raster) {
 
   // The file is flushed when it is closed, and that has no status of its own: the session hears what goes wrong.
   core::GdalSession session;
+  // What a TIFF cannot say of a rare coordinate system would go to a second file, under the temporary name.
+  const CPLConfigOptionSetter no_sidecar("GDAL_PAM_ENABLED", "NO", false);
   bool ok = false;
   {
     const GDALDatasetUniquePtr file = create(target->temporary(), raster);

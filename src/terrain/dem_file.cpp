@@ -24,13 +24,22 @@ tl::unexpected<Errors> fail_dem(const DemTerrain& dem, std::string problem, std:
   return fail(dem_error(dem, std::move(problem), std::move(expected)));
 }
 
+// GDAL's words, without the path, which the error has already.
+std::string reason(const DemTerrain& dem, const GdalSession& session, const char* otherwise) {
+  std::string out = session.message(otherwise);
+  const std::string name = "the file";
+  for (std::size_t at = 0; !dem.path.empty() && (at = out.find(dem.path, at)) != std::string::npos; at += name.size())
+    out.replace(at, dem.path.size(), name);
+  return out;
+}
+
 Result<GDALDatasetUniquePtr> open(const DemTerrain& dem, const GdalSession& session) {
   std::error_code ignored;
   if (!std::filesystem::exists(dem.path, ignored)) return fail_dem(dem, "the file does not exist");
   GDALDatasetUniquePtr file(
       GDALDataset::Open(dem.path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
   if (!file || file->GetRasterCount() == 0) {
-    return fail_dem(dem, "not a raster that can be read (" + session.message("it has no bands") + ")",
+    return fail_dem(dem, "not a raster that can be read (" + reason(dem, session, "it has no bands") + ")",
                     "expected a GeoTIFF, an Esri ASCII grid or another raster format of GDAL");
   }
   return file;
@@ -107,7 +116,8 @@ Result<void> read_rows(const DemTerrain& dem, GDALRasterBand& band, const Scalin
                                   nullptr) == CE_None &&
                     (!masked || band.GetMaskBand()->RasterIO(GF_Read, 0, y, columns, height, mask.data(), columns,
                                                              height, GDT_Byte, 0, 0, nullptr) == CE_None);
-    if (!ok || session.failed()) return fail_dem(dem, "cannot be read to its end (" + session.message("damaged") + ")");
+    if (!ok || session.failed())
+      return fail_dem(dem, "cannot be read to its end (" + reason(dem, session, "damaged") + ")");
 
     float* const to = out.height.data() + static_cast<std::size_t>(row) * out.columns;
     for (std::size_t k = 0; k < static_cast<std::size_t>(height) * out.columns; ++k) {

@@ -106,10 +106,11 @@ Result<DemPixels> warp(const DemTerrain& dem, DemPixels& source, const OGRSpatia
     return tl::unexpected(ok.error());
   }
 
-  // Bilinear: a cubic overshoots at cliffs and draws a rim round every hole.
+  // Cubic keeps peaks and pits, which bilinear planes off by metres; beside holes GDAL falls back to bilinear by
+  // itself.
   out.height.assign(static_cast<std::size_t>(out.columns) * out.rows, kHole);
   const GDALDatasetUniquePtr to = wrap(out);
-  if (!to || GDALReprojectImage(from.get(), nullptr, to.get(), nullptr, GRA_Bilinear, 0, kMaxError, nullptr, nullptr,
+  if (!to || GDALReprojectImage(from.get(), nullptr, to.get(), nullptr, GRA_Cubic, 0, kMaxError, nullptr, nullptr,
                                 nullptr) != CE_None) {
     return fail_warp();
   }
