@@ -1,0 +1,37 @@
+#include "output/csv.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace divot::output {
+namespace {
+
+// A name with a comma, a quote or a line break stands in quotes, its own quotes doubled [RFC 4180].
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+}  // namespace
+
+Result<BodiesCsv> BodiesCsv::create(const std::string& path) {
+  auto file = AtomicFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  file->write("time,name,x,y,z,vx,vy,vz,qx,qy,qz,qw,sinkage\n");
+  return BodiesCsv(std::move(*file));
+}
+
+void BodiesCsv::append(double time, std::span<const BodyView> bodies) {
+  fmt::memory_buffer rows;
+  for (const BodyView& b : bodies) {
+    fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{},{},{},{},{}\n", time, quoted(b.name),
+                   b.position.x, b.position.y, b.position.z, b.velocity.x, b.velocity.y, b.velocity.z, b.orientation.x,
+                   b.orientation.y, b.orientation.z, b.orientation.w, b.sinkage);
+  }
+  file_.write(rows.data(), rows.size());
+}
+
+}  // namespace divot::output

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "divot/errors.h"
+#include "divot/views.h"
+#include "output/atomic_file.h"
+
+namespace divot::output {
+
+/// `bodies.csv`: one row for each body and time. Numbers are printed so that reading them gives the same bits. It grows
+/// beside its name while a run lasts and takes the name at the end.
+class BodiesCsv {
+ public:
+  /// Starts with the header. Fails with the system's reason.
+  static Result<BodiesCsv> create(const std::string& path);
+
+  /// One row for each body. Failures are reported by commit().
+  void append(double time, std::span<const BodyView> bodies);
+
+  /// Puts the file in its place; nothing may be appended any more. Fails with the system's reason.
+  Result<void> commit() { return file_.commit(); }
+
+ private:
+  explicit BodiesCsv(AtomicFile file) : file_(std::move(file)) {}
+
+  AtomicFile file_;
+};
+
+}  // namespace divot::output

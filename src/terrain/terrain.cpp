@@ -1,0 +1,20 @@
+#include "terrain/terrain.h"
+
+#include <filesystem>
+
+#include "terrain/dem.h"
+#include "terrain/grid.h"
+
+namespace divot::terrain {
+
+Result<state::Surface> load_terrain(const Scene& scene) {
+  if (const auto* grid = std::get_if<GridTerrain>(&scene.terrain.shape)) {
+    return load_grid(*grid, scene.terrain.max_vertices);
+  }
+  // An absolute path stays as it is: joining replaces the folder.
+  DemTerrain dem = std::get<DemTerrain>(scene.terrain.shape);
+  dem.path = (std::filesystem::path(scene.folder) / dem.path).string();
+  return load_dem(dem, scene.terrain.max_vertices);
+}
+
+}  // namespace divot::terrain
