@@ -38,9 +38,11 @@ Vec3 pair_force(std::size_t i, const state::Particles& p, const state::MotionVie
     const laws::Medium& medium = weaker(own, field.media[p.material[j]]);
     const float cohesion =
         field.cohesion == Cohesion::lennard_jones ? laws::lennard_jones(medium, r_squared, r0) : laws::mass_spring(medium, r, r0);
-    const float near = fade(r, field.cutoff);
-    sum += (near * cohesion) * apart;
-    sum += laws::viscous_damping(near * medium.viscous_damping, v_i, {m.vx[j], m.vy[j], m.vz[j]});
+    const float near = fade(r, field.cutoff), lighter = std::min(p.mass[i], p.mass[j]);
+    const float soften = std::min(1.0f, lighter * field.resolution.stiffness_limit() / laws::lattice_stiffness(medium));
+    const float damping = std::min(medium.viscous_damping, lighter * field.resolution.damping_limit() / laws::kLatticeDamping);
+    sum += (near * soften * cohesion) * apart;
+    sum += laws::viscous_damping(near * damping, v_i, {m.vx[j], m.vy[j], m.vz[j]});
   }
   return sum;
 }
@@ -51,12 +53,12 @@ Vec3 own_force(std::size_t i, const state::Particles& p, const state::MotionView
   const std::uint32_t column = p.column[i];
   const float area = field.soil.area[column];
   const Vec3 v{m.vx[i], m.vy[i], m.vz[i]};
-  Vec3 force = laws::global_damping(medium.areal_damping * area, v);
-  // Soil that a blast has made flow has no skeleton left: it resists by drag alone until it comes to rest.
-  if (p.flow_rate[i] > 0) return force - (p.mass[i] * p.flow_rate[i]) * v;
+  // Soil that a blast has made flow has no skeleton left: it resists by drag alone, in the place of eq. 3, until it rests.
+  if (p.flow_rate[i] > 0) return laws::global_damping(p.mass[i] * p.flow_rate[i], v);
+  const Vec3 force = laws::global_damping(medium.areal_damping * area, v);
   if (!medium.ground) return force;
   const Vec3 from_rest = Vec3{m.x[i], m.y[i], m.z[i]} - field.soil.rest[column];
-  return force + area * laws::ground_traction(medium, from_rest, v, field.soil.plastic[column], field.ground);
+  return force + area * laws::ground_traction(medium, from_rest, v, field.soil.plastic[column], field.resolution);
 }
 
 void add_blast(state::Particles& p, const state::Blast& blast, const Field& field, float shape, const Jobs& jobs) {
@@ -84,7 +86,7 @@ void yield_bonds(std::size_t i, const state::Particles& p, state::Bonds& bonds, 
 }
 
 void yield_ground(std::size_t i, const state::Particles& p, state::Soil& soil, const laws::Medium& medium,
-                  const laws::GroundStep& step) {
+                  const laws::Resolution& resolution) {
   const std::uint32_t c = p.column[i];
   Vec3& rest = soil.rest[c];
   if (p.flow_rate[i] > 0) {
@@ -94,7 +96,7 @@ void yield_ground(std::size_t i, const state::Particles& p, state::Soil& soil, c
   }
   if (!medium.ground) return;
   // Pressed onto Bekker's curve: sinkage stays, but for the elastic part. Pulled beyond cohesion: the column follows up.
-  const float fresh = soil.fresh_height(c), sunk = rest.z - p.z[i], stiffness = laws::held_stiffness(medium, step);
+  const float fresh = soil.fresh_height(c), sunk = rest.z - p.z[i], stiffness = laws::held_stiffness(medium, resolution);
   if (sunk > 0) {
     const float z = fresh - p.z[i];
     const auto pressure = laws::ground_pressure(medium, z, soil.plastic[c], std::numeric_limits<float>::infinity(), stiffness);
@@ -136,11 +138,11 @@ void evaluate(state::Particles& p, const state::MotionView& motion, double time,
 }
 
 void yield(const state::Particles& p, state::Bonds& bonds, state::Soil& soil, std::span<const laws::Medium> media,
-           const laws::GroundStep& ground, const Jobs& jobs) {
+           const laws::Resolution& resolution, const Jobs& jobs) {
   jobs.for_ranges(p.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       yield_bonds(i, p, bonds, media);
-      if (p.hold[i] == state::Hold::free) yield_ground(i, p, soil, media[p.material[i]], ground);
+      if (p.hold[i] == state::Hold::free) yield_ground(i, p, soil, media[p.material[i]], resolution);
     }
   });
 }

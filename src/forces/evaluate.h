@@ -27,7 +27,7 @@ struct Field {
   std::span<const state::Blast> blasts;
   Cohesion cohesion = Cohesion::lennard_jones;
   float cutoff = 0;  ///< m
-  laws::GroundStep ground;
+  laws::Resolution resolution;
 };
 
 /// Forces at `time`, s, for particles that are where `motion` says. Particles held by a body or as anchors get none;
@@ -37,7 +37,7 @@ void evaluate(state::Particles& particles, const state::MotionView& motion, doub
 /// Lets what was strained too far flow: bonds take a new rest length beyond their yield strain, soil on Bekker's curve keeps its
 /// sinkage, soil pulled or sheared beyond its strength follows. Called after each substep.
 void yield(const state::Particles& particles, state::Bonds& bonds, state::Soil& soil, std::span<const laws::Medium> media,
-           const laws::GroundStep& ground, const Jobs& jobs);
+           const laws::Resolution& resolution, const Jobs& jobs);
 
 /// Shape of a blast's pressure pulse at `time`: 1 falling linearly to 0 over the pulse.
 float pulse_shape(const state::Blast& blast, double time);

@@ -35,6 +35,11 @@ struct Medium {
   float bond_stiffness() const { return std::max(bond_energy * attraction * repulsion, spring_stiffness); }
 };
 
+/// What a particle among its eight neighbours feels at most: the highest eigenvalue of a square lattice's stiffness is 8 bonds', of
+/// its damping 16 bonds'.
+inline float lattice_stiffness(const Medium& medium) { return 8 * medium.bond_stiffness(); }
+inline constexpr float kLatticeDamping = 16;
+
 /// The medium of a material.
 Medium make_medium(const Material& material);
 

@@ -101,8 +101,10 @@ void form_and_break(const state::Particles& p, state::Bonds& bonds, float cutoff
   jobs.for_ranges(p.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       for (std::uint32_t e = bonds.start[i]; e < bonds.start[i + 1]; ++e) {
-        const float r = std::sqrt(distance_squared(p, i, bonds.neighbour[e]));
-        if (r >= cutoff)
+        const std::uint32_t j = bonds.neighbour[e];
+        const float r = std::sqrt(distance_squared(p, i, j));
+        // Soil that flows holds together no more; it bonds anew, in its new shape, when it has come to rest.
+        if (r >= cutoff || p.flow_rate[i] > 0 || p.flow_rate[j] > 0)
           bonds.rest_length[e] = 0;
         else if (bonds.rest_length[e] == 0)
           bonds.rest_length[e] = r;

@@ -11,8 +11,8 @@ namespace {
 // A particle slower than this share of the spacing a second, for this long, is still.
 constexpr double kStillSpeed = 1e-3, kStillTime = 0.2;
 
-// Substeps follow the fastest thing in the particle system: with RK4 and semi-implicit Euler, frequency times step stays below 1.5.
-constexpr double kPhase = 1.5;
+// Substeps follow the fastest thing in the particle system. Semi-implicit Euler is stable while (frequency h)^2 + 2 damping h
+// stays below 4, so each times h may be 1.
 constexpr int kMostSubsteps = 64;
 // Share of a blast's pulse that one substep may take.
 constexpr double kPulseShare = 0.25;
@@ -20,36 +20,38 @@ constexpr double kPulseShare = 0.25;
 struct Substeps {
   int count = 1;
   bool limited = false;
-  laws::GroundStep ground;
+  laws::Resolution resolution;
 };
 
-// Stiffness of bonds and damping of a particle, per its mass, from the media that are awake; eight bonds around each.
+// The highest frequency and damping rate of any free particle, 1/s.
 double fastest_rate(const state::Particles& p, std::span<const laws::Medium> media) {
   double fastest = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (p.hold[i] != state::Hold::free) continue;
     const laws::Medium& m = media[p.material[i]];
     const double ground = m.ground ? m.elastic_stiffness / m.areal_mass : 0;
-    const double frequency = std::sqrt(8 * m.bond_stiffness() / p.mass[i] + ground);
+    const double frequency = std::sqrt(laws::lattice_stiffness(m) / p.mass[i] + ground);
     const double drag = m.ground ? m.ground_damping / m.areal_mass : 0;
-    const double damping = 8 * m.viscous_damping / p.mass[i] + m.areal_damping / m.areal_mass + drag + p.flow_rate[i];
+    const double damping = laws::kLatticeDamping * m.viscous_damping / p.mass[i] + m.areal_damping / m.areal_mass + drag + p.flow_rate[i];
     fastest = std::max({fastest, frequency, damping});
   }
   return fastest;
 }
 
+// While its pulse lasts, and then for eight relaxation times of what it made flow.
+bool acts(const state::Blast& blast, double time) { return blast.active && time < blast.start + 17 * blast.pulse; }
+
 bool in_pulse(const state::Blast& blast, double time) { return blast.active && time < blast.start + blast.pulse; }
 
 Substeps plan_substeps(const state::Particles& p, std::span<const laws::Medium> media, std::span<const state::Blast> blasts,
                        double time, double dt) {
-  double wanted = dt * fastest_rate(p, media) / kPhase;
+  double wanted = dt * fastest_rate(p, media);
   for (const state::Blast& blast : blasts)
     if (in_pulse(blast, time)) wanted = std::max(wanted, dt / (kPulseShare * blast.pulse));
   Substeps plan;
   plan.count = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSubsteps);
   plan.limited = wanted > kMostSubsteps;
-  const double phase = kPhase * plan.count / dt;
-  plan.ground.stiffness_limit = static_cast<float>(phase * phase);
+  plan.resolution.rate = static_cast<float>(plan.limited ? plan.count / dt : 1e18);
   return plan;
 }
 
@@ -134,7 +136,7 @@ void World::Impl::move_particles(StepReport& report) {
   report.substeps = plan.count;
   report.substeps_limited = plan.limited;
   const forces::Field field{bonds, soil, media, blasts, scene.solver.cohesion,
-                            static_cast<float>(scene.solver.cutoff) * surface.spacing, plan.ground};
+                            static_cast<float>(scene.solver.cutoff) * surface.spacing, plan.resolution};
   const integration::Forces evaluate = [&](const state::MotionView& motion, double at) {
     timed(Stage::forces, [&] { forces::evaluate(particles, motion, at, field, *jobs); });
     return integration::ForceView{particles.fx, particles.fy, particles.fz};
@@ -144,7 +146,7 @@ void World::Impl::move_particles(StepReport& report) {
   const double h = scene.dt / plan.count;
   for (int k = 0; k < plan.count; ++k) {
     const double at = time() + k * h;
-    const bool blast_acts = std::any_of(blasts.begin(), blasts.end(), [&](const state::Blast& b) { return in_pulse(b, at); });
+    const bool blast_acts = std::any_of(blasts.begin(), blasts.end(), [&](const state::Blast& b) { return acts(b, at); });
     const bool rk4 = scene.solver.integrator == Integrator::rk4 || (scene.solver.integrator == Integrator::automatic && blast_acts);
     timed(Stage::integration, [&] {
       if (rk4)
@@ -152,7 +154,7 @@ void World::Impl::move_particles(StepReport& report) {
       else
         integration::euler(motion, p.mass, at, h, evaluate, *jobs);
     });
-    timed(Stage::forces, [&] { forces::yield(p, bonds, soil, media, plan.ground, *jobs); });
+    timed(Stage::forces, [&] { forces::yield(p, bonds, soil, media, plan.resolution, *jobs); });
   }
   report.not_finite |= rescue(p, surface);
 }
