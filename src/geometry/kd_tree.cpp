@@ -1,6 +1,7 @@
 #include "geometry/kd_tree.h"
 
 #include <array>
+#include <limits>
 #include <nanoflann.hpp>
 
 #include "core/assert.h"
@@ -57,7 +58,7 @@ struct KdTree::Tree {
     if (!points.x.empty()) index.buildIndex();
   }
 
-  static constexpr std::size_t kLeafPoints = 10;
+  static constexpr std::size_t kLeafPoints = 10;  // nanoflann's own default
   Points points;
   Index index;
 };
