@@ -9,7 +9,7 @@ namespace {
 
 // Ejecta land from the crater's edge outward: the lip is highest at its crest and the blanket ends at 2.15 radii
 // [TM 5-855-1]. With the share of the soil that is thrown (Medium::ejecta_share) the exponent sets the lip's height.
-constexpr double kBlanketEnd = 2.15, kLipCrest = 1.12, kBlanketExponent = 9.5;
+constexpr double kBlanketEnd = 2.15, kLipCrest = 1.1, kBlanketExponent = 12;
 
 // Height of the blanket at `ratio` crater radii, 1 at the crest of the lip.
 double blanket(double ratio) {
@@ -74,9 +74,11 @@ void push_scaled(const Bomb& bomb, double height, state::Blast& blast, state::Su
     if (excess <= 0 && lands <= 0) continue;
     const std::uint32_t column = state::touch_column(surface, soil, t.vertex);
     if (excess > 0) {
-      // Flow against the drag d for a pulse T ends excess T / (2 d) deep, whatever its inertia; 2 T is its relaxation time.
+      // Flow against the drag d for a pulse T ends excess T / (2 d) deep, whatever its inertia. A push falling to 0 over the
+      // time P against a relaxation time 2 P ends push P^2 deep.
+      const double deep = excess * laws::pulse(bomb.yield) / (2 * soil_here.blast_drag);
       blast.column.push_back(column);
-      blast.push.push_back(static_cast<float>(excess / (2 * soil_here.blast_drag * blast.pulse)));
+      blast.push.push_back(static_cast<float>(deep / (blast.pulse * blast.pulse)));
     } else {
       blast.landing.push_back(column);
       blast.landing_height.push_back(static_cast<float>(lands));
@@ -108,7 +110,7 @@ state::Blast detonate(const Bomb& bomb, Blast model, double time, double dt, sta
   state::Blast blast{.direction = {0, 0, -1},
                      .yield = bomb.yield,
                      .start = time,
-                     .pulse = std::max(laws::kPulsePerCubeRoot * std::cbrt(bomb.yield), dt / 8)};
+                     .pulse = std::max(laws::pulse(bomb.yield), dt / 8)};
   const Vec3 burst = to_float(bomb.position - surface.origin);
   const state::SurfacePoint ground = state::surface_at(surface, bvh, burst.x, burst.y, scratch);
   blast.ground_zero = ground.found ? ground.position : burst;

@@ -8,7 +8,7 @@ inline constexpr double kAtmosphere = 101325;            ///< Pa
 inline constexpr double kReferenceShock_dB = 210.6;      ///< shock pressure of one ton of TNT
 inline constexpr double kReferenceWidth = 7.13232;       ///< crater width of one ton of TNT, m
 inline constexpr double kTntDensity = 1654;              ///< kg/m^3
-inline constexpr double kPulsePerCubeRoot = 2.5e-3;      ///< s, pulse of one ton; it grows with N^(1/3)
+inline constexpr double kReferencePulse = 2.5e-3;        ///< s, duration of the pressure of one ton: 0.25 ms/kg^(1/3)
 
 /// Eq. 8 and its inverse.
 double to_decibel(double pressure);
@@ -24,6 +24,8 @@ double blast_wave_pressure(double shock);
 double total_pressure(double yield);
 /// Eq. 13: what is left of `total` at distance x, m. Below the charge's radius the pressure is that at its surface.
 double pressure_at(double total, double x, double charge_radius);
+/// Duration of the pressure pulse, s: eq. 14 has none. It scales with N^(1/3).
+double pulse(double yield);
 /// Radius of a ball of TNT of that yield, m.
 double charge_radius(double yield);
 /// Eq. 14: force on one of `count` particles that share a crater `width` wide, N.
