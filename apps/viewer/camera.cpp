@@ -13,7 +13,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 // Low enough above the horizon for relief, high enough to see into a crater; standing a little east of south.
 constexpr double kElevation = 31 * kDegree;
 constexpr double kAzimuth = 24 * kDegree;
-constexpr double kFill = 0.96;         // share of the picture that what is framed may take up
+constexpr double kFillWhole = 0.96;    // share of the picture that the whole terrain takes up
+constexpr double kFillPart = 0.85;     // and what is framed on terrain that goes on around it
 constexpr double kBodyMargin = 1.15;   // of the radius around a body
 constexpr double kBlock = 0.045;       // thickness of the terrain's block over its extent
 constexpr double kWholeTerrain = 0.5;  // what is wider than this share of the terrain shows all of it
@@ -58,30 +59,52 @@ void add_crater(const BombView& bomb, std::vector<Subject>& subjects) {
   }
 }
 
-// The eye that sees all of `subjects`. Along each screen axis two planes through the eye bound the picture; how far
-// they lean towards each other fixes where the eye must stand, and the stricter of the two axes decides the distance.
-Camera fit(const std::vector<Subject>& subjects, const Vec3d& center, double aspect) {
+// How the two planes through the eye that bound the picture along `axis` lie to `subjects`: a point p is inside when
+// +-(p - eye) . axis <= slope (eye - p) . back. A ball's radius adds itself, leaned like the plane.
+struct Span {
+  double high = -std::numeric_limits<double>::infinity();  // eye . axis + slope eye . back must not be below
+  double low = -std::numeric_limits<double>::infinity();   // -eye . axis + slope eye . back must not be below
+};
+
+Span span_of(const std::vector<Subject>& subjects, const Vec3d& axis, const Vec3d& back, double slope) {
+  Span span;
+  for (const Subject& s : subjects) {
+    const double depth = slope * dot(s.center, back) + s.radius * std::sqrt(1 + slope * slope);
+    span.high = std::max(span.high, depth + dot(s.center, axis));
+    span.low = std::max(span.low, depth - dot(s.center, axis));
+  }
+  return span;
+}
+
+// Where along `axis` the eye must be, `distance` along `back`, for `subjects` to leave equal room on both sides: the
+// narrower the planes stand, the closer the two bounds come, and where they meet they fit tightly.
+double centered(const std::vector<Subject>& subjects, const Vec3d& axis, const Vec3d& back, double distance,
+                double widest) {
+  double narrow = 0, wide = widest;
+  for (int halving = 0; halving < 40; ++halving) {
+    const double slope = (narrow + wide) / 2;
+    const Span span = span_of(subjects, axis, back, slope);
+    (span.high + span.low <= 2 * slope * distance ? wide : narrow) = slope;
+  }
+  const Span span = span_of(subjects, axis, back, wide);
+  return (span.high - span.low) / 2;
+}
+
+// The eye that sees all of `subjects`: as far away as the stricter screen axis asks for, and in the middle along both.
+Camera fit(const std::vector<Subject>& subjects, const Vec3d& center, double aspect, double fill) {
   Camera camera;
   const Vec3d back = {std::sin(kAzimuth) * std::cos(kElevation), -std::cos(kAzimuth) * std::cos(kElevation),
                       std::sin(kElevation)};
   const Vec3d right = unit(cross({0, 0, 1}, back)), up = cross(back, right);
-  const double tan_up = std::tan(camera.fov_deg * kDegree / 2) * kFill, tan_right = tan_up * aspect;
+  const double tan_up = std::tan(camera.fov_deg * kDegree / 2) * fill, tan_right = tan_up * aspect;
 
-  // A point p is inside when +-(p - eye) . axis <= slope (eye - p) . back; a ball's radius adds itself, leaned like the
-  // plane.
-  const auto demand = [&](const Vec3d& axis, double slope, double& middle) {
-    double high = -std::numeric_limits<double>::infinity(), low = high;
-    for (const Subject& s : subjects) {
-      const double depth = slope * dot(s.center, back) + s.radius * std::sqrt(1 + slope * slope);
-      high = std::max(high, depth + dot(s.center, axis));
-      low = std::max(low, depth - dot(s.center, axis));
-    }
-    middle = (high - low) / 2;
-    return (high + low) / (2 * slope);
+  const auto demand = [&](const Vec3d& axis, double slope) {
+    const Span span = span_of(subjects, axis, back, slope);
+    return (span.high + span.low) / (2 * slope);
   };
-  double x = 0, y = 0;
-  const double distance = std::max(demand(right, tan_right, x), demand(up, tan_up, y));
-  camera.eye = right * x + up * y + back * distance;
+  const double distance = std::max(demand(right, tan_right), demand(up, tan_up));
+  camera.eye = right * centered(subjects, right, back, distance, tan_right) +
+               up * centered(subjects, up, back, distance, tan_up) + back * distance;
   // A region without size would put the eye on its target.
   camera.target = camera.eye - back * std::max(distance - dot(center, back), 1.0);
   return camera;
@@ -124,14 +147,15 @@ Framing frame(const SurfaceView& surface, std::span<const BodyView> bodies, std:
   Framing framing;
   framing.region = empty_region();
   for (const Subject& s : subjects) include(framing.region, s.center, s.radius);
-  if (shows_whole_terrain(framing.region, terrain)) {
+  const bool whole = shows_whole_terrain(framing.region, terrain);
+  if (whole) {
     framing.region = terrain;
     framing.region.min.z = block_base(terrain);
     add_corners(framing.region, subjects);
     // Where a bomb reaches past the terrain there is nothing to see.
     std::erase_if(subjects, [&](const Subject& s) { return s.radius == 0 && !contains(framing.region, s.center); });
   }
-  framing.camera = fit(subjects, framing.region.center(), aspect);
+  framing.camera = fit(subjects, framing.region.center(), aspect, whole ? kFillWhole : kFillPart);
   return framing;
 }
 

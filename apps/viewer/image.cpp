@@ -79,8 +79,7 @@ Result<Image> contact_sheet(std::span<const Image> images, const SheetLayout& la
   const int count = static_cast<int>(images.size());
   const int columns = std::min(layout.columns, count), rows = (count + columns - 1) / columns;
   Image sheet{.width = layout.margin + columns * (width + layout.margin),
-              .height = layout.margin + rows * (height + layout.margin),
-              .rgb = {}};
+              .height = layout.margin + rows * (height + layout.margin)};
   sheet.rgb.assign(3 * static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height), 255);
   for (int i = 0; i < count; ++i) {
     const int x = layout.margin + (i % columns) * (width + layout.margin);

@@ -11,8 +11,8 @@ namespace divot::viewer {
 
 /// A picture in memory.
 struct Image {
-  int width = 0, height = 0;      ///< pixels
-  std::vector<std::uint8_t> rgb;  ///< [3 * (row * width + column) + channel], row 0 at the top
+  int width = 0, height = 0;           ///< pixels
+  std::vector<std::uint8_t> rgb = {};  ///< [3 * (row * width + column) + channel], row 0 at the top
 
   friend bool operator==(const Image&, const Image&) = default;
 };

@@ -16,12 +16,12 @@ namespace divot::viewer {
 
 /// What a picture is to look like.
 struct RenderOptions {
-  int width = 1280, height = 720;  ///< pixels, [16, 16384]
-  bool wireframe = false;          ///< hidden-line drawing instead of lit ground
-  bool show_time = false;          ///< simulated time in the lower left corner
-  std::optional<Camera> camera;    ///< empty: frames what the first update() shows, see frame()
-  double sun_azimuth_deg = 68;     ///< degrees clockwise from north (y)
-  double sun_elevation_deg = 29;   ///< degrees above the horizon, (0, 90]
+  int width = 1280, height = 720;     ///< pixels, [16, 16384]
+  bool wireframe = false;             ///< hidden-line drawing instead of lit ground
+  bool show_time = false;             ///< simulated time in the lower left corner
+  std::optional<Camera> camera = {};  ///< empty: frames what the first update() shows, see frame()
+  double sun_azimuth_deg = 68;        ///< degrees clockwise from north (y)
+  double sun_elevation_deg = 29;      ///< degrees above the horizon, (0, 90]
 };
 
 /// Draws a world without a display. Several can live side by side; one must not be used by two threads at a time.

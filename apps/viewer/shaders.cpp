@@ -7,7 +7,8 @@
 namespace divot::viewer {
 namespace {
 
-// Sun, sky, shadows and haze: shared by everything that is lit.
+// Sun, sky, shadows and haze: shared by everything that is lit. Varyings are taken inside the triangle (centroid):
+// extrapolated to a pixel's middle outside of it they would sprinkle dark dots along ridges.
 constexpr char kLight[] = R"(#version 130
 uniform mat4 osg_ViewMatrixInverse;
 uniform vec3 sun_direction, sun_color, sky_color, bounce_color, haze_color;
@@ -17,7 +18,7 @@ uniform mat4 shadow_matrix;
 uniform float shadow_texel;
 uniform int occluder_count;
 uniform vec4 occluders[16];
-in vec3 world, facing;
+centroid in vec3 world, facing;
 
 const vec2 kDisk[12] = vec2[](vec2(-0.326, -0.406), vec2(-0.840, -0.074), vec2(-0.696, 0.457), vec2(-0.203, 0.621),
   vec2(0.962, -0.195), vec2(0.473, -0.480), vec2(0.519, 0.767), vec2(0.185, -0.893), vec2(0.507, 0.064),
@@ -83,12 +84,12 @@ vec3 octaves(vec2 p, float wave, int count, float pixel) {
   float weight = 0.5;
   vec2 q = p / wave;
   for (int i = 0; i < count; ++i) {
-    float fade = 1.0 - smoothstep(0.25, 0.5, pixel / wave);
+    float fade = 1.0 - smoothstep(0.3, 0.6, pixel / wave);
     if (fade <= 0.0) break;
     sum += noise(q) * weight * fade;
     q = mat2(1.6, 1.2, -1.2, 1.6) * q + 17.3;
     wave *= 0.5;
-    weight *= 0.6;
+    weight *= 0.66;
   }
   return sum;
 }
@@ -96,8 +97,8 @@ vec3 octaves(vec2 p, float wave, int count, float pixel) {
 
 constexpr char kGroundVertex[] = R"(#version 130
 in vec2 sinkage;
-out vec3 world, facing;
-out float sunk, moved;
+centroid out vec3 world, facing;
+centroid out float sunk, moved;
 void main() {
   world = gl_Vertex.xyz;
   facing = gl_Normal;
@@ -110,7 +111,7 @@ void main() {
 constexpr char kGroundFragment[] = R"(
 uniform vec2 height_range;
 uniform float detail_wave, sinkage_scale;
-in float sunk, moved;
+centroid in float sunk, moved;
 
 void main() {
   vec3 n = normalize(facing);
@@ -138,7 +139,7 @@ void main() {
 
 constexpr char kWallFragment[] = R"(
 uniform float detail_wave;
-in float sunk;
+centroid in float sunk;
 
 void main() {
   // Layers follow the depth below the ground, a little wavy; the first is topsoil.
@@ -156,7 +157,7 @@ void main() {
 
 constexpr char kBallVertex[] = R"(#version 130
 uniform mat4 osg_ViewMatrixInverse;
-out vec3 world, facing, local;
+centroid out vec3 world, facing, local;
 void main() {
   local = gl_Vertex.xyz;
   world = (osg_ViewMatrixInverse * (gl_ModelViewMatrix * gl_Vertex)).xyz;
@@ -167,7 +168,7 @@ void main() {
 
 constexpr char kBallFragment[] = R"(
 uniform vec3 ball_color, pattern_color;
-in vec3 local;
+centroid in vec3 local;
 
 // 1 within `width` of a line at 0, smooth over a pixel.
 float line(float x, float width) {
