@@ -31,7 +31,7 @@ Caption::Caption(int width, int height, bool dark) : overlay_(new osg::Camera), 
   text_->setColor(dark ? osg::Vec4(0.12f, 0.14f, 0.18f, 1) : osg::Vec4(1, 1, 1, 1));
   // A plate behind the letters keeps them readable on any ground.
   text_->setDrawMode(osgText::Text::TEXT | osgText::Text::FILLEDBOUNDINGBOX);
-  text_->setBoundingBoxColor(dark ? osg::Vec4(1, 1, 1, 0.8f) : osg::Vec4(0.07f, 0.09f, 0.12f, 0.6f));
+  text_->setBoundingBoxColor(dark ? osg::Vec4(0.972f, 0.972f, 0.962f, 0.85f) : osg::Vec4(0.07f, 0.09f, 0.12f, 0.6f));
   text_->setBoundingBoxMargin(0.35f * size);
   text_->setDataVariance(osg::Object::DYNAMIC);
   overlay_->addChild(text_);

@@ -80,11 +80,12 @@ void SceneGraph::build_lit() {
   osg::ref_ptr<osg::Program> ball = ball_program();
   osg::ref_ptr<osg::Group> lit = new osg::Group;
   lighting_.apply(*lit->getOrCreateStateSet());
-  lit->addChild(group_of({&terrain_.ground()}, ground_program()));
-  // From inside, walls would flicker along the far edges.
-  osg::ref_ptr<osg::Group> walls = group_of({&terrain_.walls()}, wall_program());
-  walls->getOrCreateStateSet()->setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
-  lit->addChild(walls);
+  // Ground and walls are seen from outside only: from inside they would flicker along ridges and far edges.
+  osg::ref_ptr<osg::Group> block = new osg::Group;
+  block->addChild(group_of({&terrain_.ground()}, ground_program()));
+  block->addChild(group_of({&terrain_.walls()}, wall_program()));
+  block->getOrCreateStateSet()->setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
+  lit->addChild(block);
   osg::ref_ptr<osg::Group> bodies = group_of({&bodies_.root()}, ball), bombs = group_of({&bombs_.root()}, ball);
   set_colors(*bodies, kBodyColor, kPatternColor);
   set_colors(*bombs, kBombColor, kBombColor);
