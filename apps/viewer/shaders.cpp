@@ -243,6 +243,8 @@ in vec3 color;
 void main() { gl_FragColor = vec4(color, 1.0); }
 )";
 
+static_assert(kMaxOccluders == 16, "the length of `occluders` in kLight");
+
 osg::ref_ptr<osg::Program> make_program(const std::string& vertex, const std::string& fragment) {
   osg::ref_ptr<osg::Program> program = new osg::Program;
   program->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
