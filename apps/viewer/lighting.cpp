@@ -1,0 +1,115 @@
+#include "viewer/lighting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <osg/PolygonOffset>
+#include <vector>
+
+#include "viewer/shaders.h"
+
+namespace divot::viewer {
+namespace {
+
+constexpr int kShadowSize = 3072;    // texels along a side
+constexpr unsigned kShadowUnit = 1;  // texture unit; captions use 0
+constexpr double kHazeReach = 2.6;   // haze hides 63 % after so many times the distance at which it begins
+
+// Linear colours: a low warm sun against a blue sky, and light thrown back by brown ground.
+const osg::Vec3 kSunColor(2.90f, 2.50f, 1.95f);
+const osg::Vec3 kSkyColor(0.50f, 0.60f, 0.78f);
+const osg::Vec3 kBounceColor(0.26f, 0.21f, 0.16f);
+const osg::Vec3 kHazeColor(0.62f, 0.72f, 0.86f);
+
+osg::Vec3d direction_to(const Sun& sun) {
+  const double azimuth = osg::DegreesToRadians(sun.azimuth_deg), elevation = osg::DegreesToRadians(sun.elevation_deg);
+  return {std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation), std::sin(elevation)};
+}
+
+osg::ref_ptr<osg::Texture2D> make_shadow_map() {
+  osg::ref_ptr<osg::Texture2D> map = new osg::Texture2D;
+  map->setTextureSize(kShadowSize, kShadowSize);
+  map->setInternalFormat(GL_DEPTH_COMPONENT24);
+  map->setSourceFormat(GL_DEPTH_COMPONENT);
+  map->setSourceType(GL_UNSIGNED_INT);
+  map->setShadowComparison(true);
+  map->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR);
+  map->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
+  map->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_EDGE);
+  map->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_EDGE);
+  return map;
+}
+
+osg::ref_ptr<osg::Camera> make_shadow_pass(osg::Texture2D& map) {
+  osg::ref_ptr<osg::Camera> pass = new osg::Camera;
+  pass->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+  pass->setRenderOrder(osg::Camera::PRE_RENDER);
+  pass->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
+  pass->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+  pass->setViewport(0, 0, kShadowSize, kShadowSize);
+  pass->setClearMask(GL_DEPTH_BUFFER_BIT);
+  pass->attach(osg::Camera::DEPTH_BUFFER, &map);
+  osg::StateSet* state = pass->getOrCreateStateSet();
+  constexpr auto kOverride = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
+  state->setAttributeAndModes(depth_program(), kOverride);
+  state->setAttributeAndModes(new osg::PolygonOffset(1.5f, 2.0f), kOverride);
+  return pass;
+}
+
+}  // namespace
+
+Lighting::Lighting(const Sun& sun)
+    : sun_direction_(direction_to(sun)),
+      shadow_map_(make_shadow_map()),
+      uniforms_(new osg::StateSet),
+      shadow_matrix_(new osg::Uniform(osg::Uniform::FLOAT_MAT4, "shadow_matrix")),
+      shadow_texel_(new osg::Uniform("shadow_texel", 1.0f)),
+      haze_range_(new osg::Uniform("haze_range", osg::Vec2(1, 1))),
+      occluders_(new osg::Uniform(osg::Uniform::FLOAT_VEC4, "occluders", kMaxOccluders)),
+      occluder_count_(new osg::Uniform("occluder_count", 0)) {
+  shadow_pass_ = make_shadow_pass(*shadow_map_);
+  set_focus({}, 1);
+}
+
+void Lighting::apply(osg::StateSet& state) const {
+  state.setTextureAttributeAndModes(kShadowUnit, shadow_map_);
+  state.addUniform(new osg::Uniform("shadow_map", static_cast<int>(kShadowUnit)));
+  state.addUniform(new osg::Uniform("sun_direction", osg::Vec3(sun_direction_)));
+  state.addUniform(new osg::Uniform("sun_color", kSunColor));
+  state.addUniform(new osg::Uniform("sky_color", kSkyColor));
+  state.addUniform(new osg::Uniform("bounce_color", kBounceColor));
+  state.addUniform(new osg::Uniform("haze_color", kHazeColor));
+  for (const auto& uniform : {shadow_matrix_, shadow_texel_, haze_range_, occluders_, occluder_count_}) {
+    state.addUniform(uniform);
+  }
+}
+
+void Lighting::set_focus(const osg::Vec3d& center, double radius) {
+  // Seen from far towards the sun, so that hills outside the map still throw their shadows into it.
+  const osg::Vec3d up = std::abs(sun_direction_.z()) > 0.99 ? osg::Vec3d(0, 1, 0) : osg::Vec3d(0, 0, 1);
+  const osg::Matrixd view = osg::Matrixd::lookAt(center + sun_direction_ * (4 * radius), center, up);
+  const osg::Matrixd projection = osg::Matrixd::ortho(-radius, radius, -radius, radius, radius, 7 * radius);
+  shadow_pass_->setViewMatrix(view);
+  shadow_pass_->setProjectionMatrix(projection);
+  shadow_matrix_->set(
+      osg::Matrixf(view * projection * osg::Matrixd::translate(1, 1, 1) * osg::Matrixd::scale(0.5, 0.5, 0.5)));
+  shadow_texel_->set(static_cast<float>(2 * radius / kShadowSize));
+}
+
+void Lighting::set_haze(double distance) { haze_range_->set(osg::Vec2(osg::Vec2d(distance, kHazeReach * distance))); }
+
+void Lighting::set_occluders(const Vec3d& origin, std::span<const BodyView> bodies) {
+  std::vector<std::size_t> order(bodies.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return bodies[a].radius > bodies[b].radius; });
+  order.resize(std::min<std::size_t>(order.size(), kMaxOccluders));
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const BodyView& body = bodies[order[i]];
+    const Vec3d p = body.position - origin;
+    occluders_->setElement(static_cast<unsigned>(i), osg::Vec4(osg::Vec4d(p.x, p.y, p.z, body.radius)));
+  }
+  occluder_count_->set(static_cast<int>(order.size()));
+}
+
+}  // namespace divot::viewer

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <osg/Camera>
+#include <osg/Texture2D>
+#include <osg/Uniform>
+#include <span>
+
+#include "divot/views.h"
+#include "viewer/camera.h"
+
+namespace divot::viewer {
+
+/// Where the sun stands.
+struct Sun {
+  double azimuth_deg = 68;    ///< degrees clockwise from north (y)
+  double elevation_deg = 29;  ///< degrees above the horizon, (0, 90]; low suns show relief
+};
+
+/// Sun, sky light, haze and shadows, as uniforms and a shadow map for all that is lit.
+class Lighting {
+ public:
+  explicit Lighting(const Sun& sun);
+
+  /// Adds the light to what is drawn under `state`.
+  void apply(osg::StateSet& state) const;
+
+  /// The pass that draws what throws shadows as the sun sees it. Put it beside what is lit, and the casters below it.
+  osg::Camera& shadow_pass() { return *shadow_pass_; }
+
+  /// Lays the shadow map over `center` with `radius` (m, relative to the surface's origin; > 0); beyond it nothing
+  /// throws shadows.
+  void set_focus(const osg::Vec3d& center, double radius);
+
+  /// Haze begins at `distance` from the eye, m, > 0.
+  void set_haze(double distance);
+
+  /// Bodies darken the ground beneath them. `origin`: the surface's. [O(bodies log bodies)]
+  void set_occluders(const Vec3d& origin, std::span<const BodyView> bodies);
+
+ private:
+  osg::Vec3d sun_direction_;  // unit, towards the sun
+  osg::ref_ptr<osg::Camera> shadow_pass_;
+  osg::ref_ptr<osg::Texture2D> shadow_map_;
+  osg::ref_ptr<osg::StateSet> uniforms_;
+  osg::ref_ptr<osg::Uniform> shadow_matrix_, shadow_texel_, haze_range_, occluders_, occluder_count_;
+};
+
+}  // namespace divot::viewer

@@ -1,0 +1,165 @@
+#include "viewer/terrain_chunk.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace divot::viewer {
+namespace {
+
+osg::ref_ptr<osg::Geometry> make_geometry(osg::Vec3Array& positions, osg::Vec3Array& normals, osg::Vec2Array& depth) {
+  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+  geometry->setDataVariance(osg::Object::DYNAMIC);
+  geometry->setUseDisplayList(false);
+  geometry->setUseVertexBufferObjects(true);
+  geometry->setVertexArray(&positions);
+  geometry->setNormalArray(&normals, osg::Array::BIND_PER_VERTEX);
+  geometry->setVertexAttribArray(kSinkageAttribute, &depth, osg::Array::BIND_PER_VERTEX);
+  return geometry;
+}
+
+// Edges of the first `own_count` triangles that no other triangle shares, as pairs of vertices in the triangle's
+// direction. Directed edges are bucketed by their smaller vertex, so that only the few at one vertex are compared.
+std::vector<std::uint32_t> border_edges(const std::vector<std::uint32_t>& corners, std::size_t own_count,
+                                        std::size_t vertex_count) {
+  const auto end_of = [&](std::size_t c) { return corners[c % 3 == 2 ? c - 2 : c + 1]; };
+  std::vector<std::uint32_t> start(vertex_count + 1, 0), edges(corners.size());
+  for (std::size_t c = 0; c < corners.size(); ++c) ++start[std::min(corners[c], end_of(c)) + 1];
+  for (std::size_t v = 0; v < vertex_count; ++v) start[v + 1] += start[v];
+  std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    edges[next[std::min(corners[c], end_of(c))]++] = static_cast<std::uint32_t>(c);
+  }
+
+  std::vector<std::uint32_t> border;
+  for (std::size_t c = 0; c < 3 * own_count; ++c) {
+    const std::uint32_t low = std::min(corners[c], end_of(c));
+    const auto is_opposite = [&](std::uint32_t other) {
+      return corners[other] == end_of(c) && end_of(other) == corners[c];
+    };
+    if (std::none_of(edges.begin() + start[low], edges.begin() + start[low + 1], is_opposite)) {
+      border.insert(border.end(), {corners[c], end_of(c)});
+    }
+  }
+  return border;
+}
+
+}  // namespace
+
+TerrainChunk::TerrainChunk(const SurfaceView& surface, std::span<const std::uint32_t> own,
+                           std::span<const std::uint32_t> fringe, float base)
+    : own_count_(own.size()), base_(base) {
+  index_vertices(surface, own, fringe);
+  positions_ = new osg::Vec3Array(static_cast<unsigned>(vertices_.size()));
+  normals_ = new osg::Vec3Array(static_cast<unsigned>(vertices_.size()));
+  sinkage_ = new osg::Vec2Array(static_cast<unsigned>(vertices_.size()));
+  ground_ = make_geometry(*positions_, *normals_, *sinkage_);
+  ground_->addPrimitiveSet(
+      new osg::DrawElementsUInt(GL_TRIANGLES, static_cast<unsigned>(3 * own_count_), corners_.data()));
+
+  border_ = border_edges(corners_, own_count_, vertices_.size());
+  if (!border_.empty()) build_wall();
+}
+
+void TerrainChunk::index_vertices(const SurfaceView& surface, std::span<const std::uint32_t> own,
+                                  std::span<const std::uint32_t> fringe) {
+  for (const auto faces : {own, fringe}) {
+    for (const std::uint32_t face : faces) {
+      const auto corner = surface.triangles.begin() + 3 * static_cast<std::ptrdiff_t>(face);
+      corners_.insert(corners_.end(), corner, corner + 3);
+    }
+  }
+  vertices_ = corners_;
+  std::sort(vertices_.begin(), vertices_.end());
+  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+  for (std::uint32_t& corner : corners_) {
+    const auto found = std::lower_bound(vertices_.begin(), vertices_.end(), corner);
+    corner = static_cast<std::uint32_t>(found - vertices_.begin());
+  }
+}
+
+// Each border edge becomes a quad of its own: two corners on the ground, two at the base.
+void TerrainChunk::build_wall() {
+  const auto count = static_cast<unsigned>(2 * border_.size());
+  wall_positions_ = new osg::Vec3Array(count);
+  wall_normals_ = new osg::Vec3Array(count);
+  wall_depth_ = new osg::Vec2Array(count);
+  wall_ = make_geometry(*wall_positions_, *wall_normals_, *wall_depth_);
+  osg::ref_ptr<osg::DrawElementsUInt> indices = new osg::DrawElementsUInt(GL_TRIANGLES);
+  for (unsigned i = 0; i < count; i += 4) {
+    for (const unsigned corner : {0u, 2u, 1u, 1u, 2u, 3u}) indices->push_back(i + corner);
+  }
+  wall_->addPrimitiveSet(indices);
+}
+
+bool TerrainChunk::touches(std::span<const DirtyRange> dirty) const {
+  if (vertices_.empty()) return false;
+  auto range = std::partition_point(dirty.begin(), dirty.end(),
+                                    [&](const DirtyRange& r) { return r.second <= vertices_.front(); });
+  for (; range != dirty.end() && range->first <= vertices_.back(); ++range) {
+    const auto first = std::lower_bound(vertices_.begin(), vertices_.end(), range->first);
+    if (first != vertices_.end() && *first < range->second) return true;
+  }
+  return false;
+}
+
+void TerrainChunk::refresh(const SurfaceView& surface, const Sinkage& sinkage) {
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    const Vec3& p = surface.positions[vertices_[i]];
+    (*positions_)[i].set(p.x, p.y, p.z);
+  }
+  positions_->dirty();
+  refresh_normals();
+  refresh_sinkage(sinkage);
+  ground_->dirtyBound();
+  if (wall_) refresh_wall();
+}
+
+// The cross product is twice the triangle's area long, which is just the weight its normal should have.
+void TerrainChunk::refresh_normals() {
+  std::fill(normals_->begin(), normals_->end(), osg::Vec3());
+  for (std::size_t c = 0; c < corners_.size(); c += 3) {
+    const osg::Vec3 a = (*positions_)[corners_[c]], b = (*positions_)[corners_[c + 1]],
+                    d = (*positions_)[corners_[c + 2]];
+    const osg::Vec3 weighted = (b - a) ^ (d - a);
+    for (std::size_t k = 0; k < 3; ++k) (*normals_)[corners_[c + k]] += weighted;
+  }
+  for (osg::Vec3& normal : *normals_) normal.normalize();
+  normals_->dirty();
+}
+
+void TerrainChunk::refresh_sinkage(const Sinkage& sinkage) {
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    const float sunk = sinkage ? sinkage(vertices_[i]) : 0.0f;
+    (*sinkage_)[i].set(sunk, std::abs(sunk));
+  }
+  // Each corner takes the largest of its triangles; from the unspread values, so that it spreads by one ring only.
+  for (std::size_t c = 0; c < corners_.size(); c += 3) {
+    float largest = 0;
+    for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, std::abs((*sinkage_)[corners_[c + k]].x()));
+    for (std::size_t k = 0; k < 3; ++k) {
+      float& spread = (*sinkage_)[corners_[c + k]].y();
+      spread = std::max(spread, largest);
+    }
+  }
+  sinkage_->dirty();
+}
+
+void TerrainChunk::refresh_wall() {
+  for (std::size_t edge = 0; edge < border_.size(); edge += 2) {
+    const osg::Vec3 a = (*positions_)[border_[edge]], b = (*positions_)[border_[edge + 1]];
+    osg::Vec3 outward = (b - a) ^ osg::Vec3(0, 0, 1);
+    outward.normalize();
+    const osg::Vec3 corners[] = {a, b, osg::Vec3(a.x(), a.y(), base_), osg::Vec3(b.x(), b.y(), base_)};
+    for (std::size_t k = 0; k < 4; ++k) {
+      (*wall_positions_)[2 * edge + k] = corners[k];
+      (*wall_normals_)[2 * edge + k] = outward;
+      (*wall_depth_)[2 * edge + k].set((k % 2 == 0 ? a : b).z() - corners[k].z(), 0.0f);
+    }
+  }
+  wall_positions_->dirty();
+  wall_normals_->dirty();
+  wall_depth_->dirty();
+  wall_->dirtyBound();
+}
+
+}  // namespace divot::viewer

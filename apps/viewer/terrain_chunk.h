@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <osg/Geometry>
+#include <span>
+#include <vector>
+
+#include "divot/views.h"
+
+namespace divot::viewer {
+
+/// Sinkage of a vertex, m; see World::sinkage.
+using Sinkage = std::function<float(std::uint32_t vertex)>;
+
+/// Vertex attribute that carries two numbers: the vertex's sinkage, and the largest |sinkage| of it and its neighbours.
+/// The second tells turned soil from untouched, also on the line where a crater's bowl turns into its lip and the
+/// sinkage itself is 0.
+inline constexpr unsigned kSinkageAttribute = 6;
+
+/// A part of the terrain small enough to be sent again as a whole when one of its vertices moved.
+///
+/// It keeps copies of its vertices and also knows the triangles of its neighbours that touch them (the fringe), so that
+/// its normals are the same as those across the border. Where the terrain ends, a wall goes down to the block's base.
+class TerrainChunk {
+ public:
+  /// Own triangles and fringe, as indices into `surface.triangles` / 3. `base`: height of the wall's foot, m, relative
+  /// to the origin.
+  TerrainChunk(const SurfaceView& surface, std::span<const std::uint32_t> own, std::span<const std::uint32_t> fringe,
+               float base);
+
+  /// True when a vertex that it draws or takes normals from lies in one of the ascending, disjoint `dirty` ranges.
+  /// [O(ranges within its ids * log vertices)]
+  bool touches(std::span<const DirtyRange> dirty) const;
+
+  /// Copies positions and sinkage, recomputes normals and marks them for upload. [O(vertices + triangles)]
+  void refresh(const SurfaceView& surface, const Sinkage& sinkage);
+
+  osg::Geometry& ground() { return *ground_; }
+  /// Null where the terrain does not end within the chunk.
+  osg::Geometry* wall() { return wall_.get(); }
+
+ private:
+  void index_vertices(const SurfaceView& surface, std::span<const std::uint32_t> own,
+                      std::span<const std::uint32_t> fringe);
+  void build_wall();
+  void refresh_normals();
+  void refresh_sinkage(const Sinkage& sinkage);
+  void refresh_wall();
+
+  std::vector<std::uint32_t> vertices_;  // [local vertex] id, ascending
+  std::vector<std::uint32_t> corners_;   // [3 * triangle + corner] local vertex; own triangles first
+  std::size_t own_count_;                // triangles that are drawn
+  std::vector<std::uint32_t> border_;    // [2 * edge + end] local vertices of edges with ground on one side only
+  float base_;                           // m
+  osg::ref_ptr<osg::Geometry> ground_, wall_;
+  osg::ref_ptr<osg::Vec3Array> positions_, normals_, wall_positions_, wall_normals_;
+  osg::ref_ptr<osg::Vec2Array> sinkage_, wall_depth_;
+};
+
+}  // namespace divot::viewer

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <osg/Group>
+#include <vector>
+
+#include "divot/views.h"
+#include "viewer/camera.h"
+#include "viewer/terrain_chunk.h"
+
+namespace divot::viewer {
+
+/// The ground as chunks that are culled and sent to the graphics card one by one.
+class TerrainNode {
+ public:
+  TerrainNode();
+
+  /// Takes over the ground. Chunks are made when it is seen first and again whenever it has other triangles than
+  /// before; otherwise only those that `dirty` (ascending, disjoint) touches are sent again. [O(faces) the first time,
+  /// then O(chunks + dirty chunks)]
+  void update(const SurfaceView& surface, std::span<const DirtyRange> dirty, const Sinkage& sinkage);
+
+  osg::Group& ground() { return *ground_; }
+  osg::Group& walls() { return *walls_; }
+
+  /// Heights of the ground before anything deformed it, m, relative to the origin: they colour the picture and must not
+  /// change with it.
+  float lowest() const { return lowest_; }
+  float highest() const { return highest_; }
+  /// Bounds when the chunks were made, in the terrain's coordinates.
+  const Region& bounds() const { return bounds_; }
+
+ private:
+  void rebuild(const SurfaceView& surface, const Sinkage& sinkage);
+  void measure(const SurfaceView& surface, const Sinkage& sinkage);
+
+  osg::ref_ptr<osg::Group> ground_, walls_;
+  std::vector<TerrainChunk> chunks_;
+  std::size_t vertex_count_ = 0, corner_count_ = 0;
+  Region bounds_;
+  float lowest_ = 0, highest_ = 0;
+};
+
+}  // namespace divot::viewer
