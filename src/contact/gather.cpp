@@ -18,7 +18,7 @@ void append_untouched(std::uint32_t vertex, const Situation& s, Ground& g) {
   const Vec3 p = s.surface.position[vertex];
   g.height.push_back(p.z), g.fresh.push_back(p.z), g.original.push_back(p.z), g.plastic.push_back(0);
   g.area.push_back(state::vertex_area(s.surface, vertex));
-  g.pull.push_back(0), g.speed.push_back(0), g.shear.push_back({});
+  g.shear.push_back({});
 }
 
 void append_touched(std::uint32_t vertex, std::uint32_t column, const Situation& s, Ground& g) {
@@ -29,10 +29,6 @@ void append_touched(std::uint32_t vertex, std::uint32_t column, const Situation&
   g.plastic.push_back(s.soil.plastic[column]);
   g.area.push_back(s.soil.area[column]);
   g.shear.push_back(to_double(s.soil.shear[column]));
-  const std::uint32_t i = s.soil.particle[column];
-  const bool carried = i != kNone && s.particles.hold[i] == state::Hold::carried;
-  g.pull.push_back(carried ? s.particles.held_pull[i] : 0);
-  g.speed.push_back(i != kNone ? s.particles.vz[i] : 0);
 }
 
 }  // namespace
@@ -50,14 +46,21 @@ void gather(const state::Body& body, const Situation& s, Ground& g) {
     g.vertex.push_back(vertex);
     g.material.push_back(s.surface.material[vertex]);
     g.x.push_back(p.x), g.y.push_back(p.y);
-    column == kNone ? append_untouched(vertex, s, g) : append_touched(vertex, column, s, g);
+    const std::uint32_t particle = column != kNone ? s.soil.particle[column] : kNone;
+    const bool carried = particle != kNone && s.particles.hold[particle] == state::Hold::carried;
+    if (column == kNone)
+      append_untouched(vertex, s, g);
+    else
+      append_touched(vertex, column, s, g);
+    g.pull.push_back(carried ? s.particles.held_pull[particle] : 0);
+    g.speed.push_back(particle != kNone ? s.particles.vz[particle] : 0);
     g.mass.push_back(s.media[g.material.back()].areal_mass * g.area.back());
 
-    // Ground that is already inside the body without having been pressed there (a body born in the ground, soil that fell on
-    // one) counts as pressed: it must not throw the body out.
+    // Ground that is already inside the body although nothing pressed it there (a body born in the ground, a crater's lip that
+    // rose under one) counts as pressed: it must not throw the body out.
     const std::size_t k = g.vertex.size() - 1;
     const Underside under = underside(body, body.position, g.x[k], g.y[k]);
-    if (under.below && under.height < p.z - 1e-5 * s.surface.spacing)
+    if (under.below && !carried && under.height < g.height[k])
       g.plastic[k] = std::max(g.plastic[k], g.fresh[k] - under.height);
     const double gap = under.below ? under.height - p.z : math::Aabb::kInf;
     if (gap < nearest) nearest = gap, g.deepest = k;

@@ -76,8 +76,8 @@ bool load_of(const state::Body& body, const Ground& g, std::size_t k, const Vec3
   // The particle's own inertia and what cohesion does to it come on top of the soil's pressure.
   const double inertia = g.mass[k] / s.dt;
   load.push = pressure.value * g.area[k] + g.pull[k] + inertia * (g.speed[k] - dot(load.lift, velocity));
-  if (load.push <= 0) return false;
   load.slope = pressure.slope * g.area[k] + inertia / s.dt;
+  if (load.push <= 0) load.push = load.slope = 0;  // soil does not pull
   load.arm = {g.x[k] - position.x, g.y[k] - position.y, under.height - position.z};
 
   // Shear displacement grows with slip until the soil slides [Janosi & Hanamoto]; the body's own friction can slide before.
