@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "scene/keys.h"
-
 namespace divot::scene {
 namespace {
 
@@ -64,15 +62,9 @@ Result<toml::table> document_of(std::span<const Part> parts, const Override& ove
   return parse_toml(text, source_of(override));
 }
 
-/// Whether scene files have a list of tables of that name.
-bool is_list(const std::string& path) {
-  const std::vector<KeyInfo> keys = scene_keys();
-  return std::any_of(keys.begin(), keys.end(), [&](const KeyInfo& key) { return key.path.rfind(path + "[]", 0) == 0; });
-}
-
 std::string size_text(std::size_t size) {
-  if (size == 0) return "the scene has none";
-  return size == 1 ? "expected 0: the scene has one" : fmt::format("expected 0 to {}", size - 1);
+  if (size == 0) return "expected no index: the list is empty";
+  return size == 1 ? "expected 0, its only element" : fmt::format("expected 0 to {}", size - 1);
 }
 
 }  // namespace
@@ -113,15 +105,16 @@ std::optional<Error> apply_override(toml::table& document, const Override& overr
     at = next;
   }
 
-  // What is not there is made on the way, except elements of lists.
+  // Tables that are not there are made on the way, elements of lists are not.
   for (std::size_t i = depth; i + 1 < parts.size(); ++i) {
+    if (!parts[i + 1].bracket && !index_in(parts[i + 1])) continue;
     const std::string path = joined(parts.first(i + 1));
-    if (is_list(path) || parts[i + 1].bracket)
-      return wrong(fmt::format("{} has no element {}", path, parts[i + 1].text), size_text(0));
+    return wrong(fmt::format("the scene has no list {}", path),
+                 fmt::format("expected the whole of it, as {}=[...]", path));
   }
   auto value =
       document_of(at->is_array() ? std::span(parts).subspan(parts.size() - 1) : parts.subspan(depth), override);
-  if (!value) return value.error().front();
+  if (!value) return wrong(value.error().front().problem, {});
 
   // Moved, not copied: only then do nodes keep where they come from.
   value->begin()->second.visit([&](auto& node) {
