@@ -402,7 +402,7 @@ TEST(SceneOverrides, NameThemselvesInErrors) {
       {{"duration", "5s"}, "--set duration: duration: \"5s\" is text; expected a number > 0 and <= 1e9 (s)"},
       {{"duration", "1\ndt = 2"},
        "--set duration: duration: \"1\\u000adt = 2\" is text; expected a number > 0 and <= 1e9 (s)"},
-      {{"duration.x", "5"}, "--set duration.x: duration: 5 is a number; expected a table or list to set a key of"},
+      {{"duration.x", "5"}, "--set duration.x: duration: 5 is a number; expected a table or list there"},
       {{"terrain.grid", "{ columns = 2, rows = 2, spacing = 1 }"},
        "--set terrain.grid: terrain: holds grid and dem at once; expected one of them"},
       {{"", "1"}, "--set : not a key; expected a dotted path as solver.blast or bodies.0.mass"},
