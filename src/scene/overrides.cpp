@@ -50,16 +50,16 @@ std::optional<std::size_t> index_in(const Part& part) {
 
 /// Whether `value` alone is a TOML value, and nothing follows it.
 bool is_value(const std::string& value) {
-  const auto parsed = parse_toml("value = " + value, "");
+  const auto parsed = parse_toml(fmt::format("value = {}", value), "");
   return parsed && parsed->size() == 1;
 }
 
 /// A document of one value at `parts`.
 Result<toml::table> document_of(std::span<const Part> parts, const Override& override) {
   std::string text;
-  for (const Part& part : parts) text += (text.empty() ? "" : ".") + quoted(part.text);
-  text += " = " + (is_value(override.value) ? override.value : quoted(override.value));
-  return parse_toml(text, source_of(override));
+  for (const Part& part : parts) text += fmt::format("{}{}", text.empty() ? "" : ".", quoted(part.text));
+  const std::string value = is_value(override.value) ? override.value : quoted(override.value);
+  return parse_toml(fmt::format("{} = {}", text, value), source_of(override));
 }
 
 std::string size_text(std::size_t size) {
