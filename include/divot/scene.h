@@ -21,13 +21,13 @@ struct GridTerrain {
   int rows = 40;         ///< vertices along y, >= 2
   double spacing = 10.9; ///< m, > 0
   /// Height in metres at x, y in metres; flat where it is empty. Only the C++ interface can set it.
-  std::function<double(double x, double y)> height;
+  std::function<double(double x, double y)> height = {};
 };
 
 /// A digital elevation model in any raster format that GDAL reads.
 struct DemTerrain {
-  std::string path;  ///< relative paths start at the scene file's folder
-  std::string crs;   ///< what the file's coordinates are (`EPSG:4326`), for formats that cannot say; empty: what the file says
+  std::string path = {};  ///< relative paths start at the scene file's folder
+  std::string crs = {};   ///< what the file's coordinates are (`EPSG:4326`), for formats that cannot say; empty: what the file says
   int band = 1;      ///< >= 1
 };
 
@@ -45,13 +45,13 @@ struct Sphere {
 
 /// A moving object.
 struct BodySettings {
-  std::string name;
-  Sphere shape;
+  std::string name = {};
+  Sphere shape = {};
   double mass = 1;           ///< kg, > 0
-  Vec3d position;            ///< of its centre, m, in the terrain's coordinates (docs/scene-format.md, "Coordinates")
+  Vec3d position = {};            ///< of its centre, m, in the terrain's coordinates (docs/scene-format.md, "Coordinates")
   bool above_ground = false; ///< true: position.z is the height of its lowest point above the ground there
-  Vec3d velocity;            ///< m/s
-  Vec3d angular_velocity;    ///< rad/s
+  Vec3d velocity = {};            ///< m/s
+  Vec3d angular_velocity = {};    ///< rad/s
   double restitution = 0.5;  ///< multiplied by the material's, [0, 1]
   double friction = 0.8;     ///< Coulomb's, between body and soil and between bodies, >= 0
 };
@@ -59,7 +59,7 @@ struct BodySettings {
 /// A charge.
 struct Bomb {
   double time = 0;   ///< s, when it goes off, >= 0
-  Vec3d position;    ///< m, in the terrain's coordinates; one below the ground goes off at the ground
+  Vec3d position = {};    ///< m, in the terrain's coordinates; one below the ground goes off at the ground
   bool above_ground = false;  ///< true: position.z is the height of burst above the ground there
   double yield = 1;  ///< metric tons of TNT, > 0
 };
@@ -67,29 +67,29 @@ struct Bomb {
 /// What a run writes.
 struct OutputSettings {
   double every = 0;                  ///< s between frames of `formats`; 0: only the final state
-  std::vector<std::string> formats;  ///< of `ply`, `tif`, `csv`
+  std::vector<std::string> formats = {};  ///< of `ply`, `tif`, `csv`
 };
 
 /// Everything that makes a run: what a scene file holds.
 struct Scene {
-  std::string name;    ///< the file's name without folder and ending
-  std::string folder;  ///< relative paths in the scene start here
+  std::string name = {};    ///< the file's name without folder and ending
+  std::string folder = {};  ///< relative paths in the scene start here
   double duration = 10;
   double dt = 1.0 / 60;
   Vec3d gravity = {0, 0, -9.81};
   std::uint64_t seed = 1;
-  TerrainSource terrain;
-  std::vector<Material> materials;  ///< those the scene defines; presets need not be listed
-  std::vector<BodySettings> bodies;
-  std::vector<Bomb> bombs;
-  Settings solver;
-  OutputSettings output;
+  TerrainSource terrain = {};
+  std::vector<Material> materials = {};  ///< those the scene defines; presets need not be listed
+  std::vector<BodySettings> bodies = {};
+  std::vector<Bomb> bombs = {};
+  Settings solver = {};
+  OutputSettings output = {};
 };
 
 /// One `--set key=value`.
 struct Override {
-  std::string key;    ///< dotted path, as `solver.blast` or `bodies.0.mass`
-  std::string value;  ///< TOML; text that is not TOML is taken as a string
+  std::string key = {};    ///< dotted path, as `solver.blast` or `bodies.0.mass`
+  std::string value = {};  ///< TOML; text that is not TOML is taken as a string
 };
 
 /// Reads and checks a scene file. Every problem is reported, not only the first.

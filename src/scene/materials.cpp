@@ -22,7 +22,7 @@ struct Soil {
 
 constexpr Soil kDrySand = {
     .name = "dry_sand",
-    .density = 1600,               // dry quartz sand: 1500 to 1700
+    .density = 1600,               // engineering value: dry quartz sand
     .kc = 0.99e3,                  // [Wong 2008] "Dry sand (LLL)"
     .kphi = 1528.4e3,              // the same
     .n = 1.1,                      // the same
@@ -38,11 +38,11 @@ constexpr Soil kDrySand = {
 
 constexpr Soil kMud = {
     .name = "mud",
-    .density = 1800,            // sandy loam at 32 % moisture
+    .density = 1800,            // engineering value: sandy loam at 32 % moisture
     .kc = 0.77e3,               // [Wong 2008] "Sandy loam (Hanamoto)", 32 %
     .kphi = 51.91e3,            // the same
     .n = 0.5,                   // the same
-    .elastic_stiffness = 10e6,  // engineering value: 200 times kphi, as Chrono's SCM examples have it (4e7 over 0.2e6)
+    .elastic_stiffness = 10e6,  // engineering value: about 200 times kphi
     .cohesion = 5.17e3,         // [Wong 2008] "Sandy loam (Hanamoto)", 32 %
     .friction_angle_deg = 11,   // the same
     .shear_modulus = 0.02,      // typical, not measured with the rest
@@ -54,13 +54,13 @@ constexpr Soil kMud = {
 
 constexpr Soil kAsphalt = {
     .name = "asphalt",
-    .density = 2400,            // asphalt concrete: 2300 to 2450
+    .density = 2400,            // engineering value: asphalt concrete
     .kc = 0,                    // engineering value: stiffness does not depend on the plate
     .kphi = 5e9,                // engineering value: a truck's tyre at 0.7 MPa sinks 0.14 mm
     .n = 1,                     // engineering value: linear
-    .elastic_stiffness = 2e10,  // modulus of 2 GPa at 20 degrees Celsius over a layer of 0.1 m
-    .cohesion = 1e6,            // engineering value: triaxial tests of mixes give 0.2 to 1 MPa
-    .friction_angle_deg = 40,   // engineering value: the same tests give 35 to 45
+    .elastic_stiffness = 2e10,  // engineering value: modulus of 2 GPa over a layer of 0.1 m
+    .cohesion = 1e6,            // engineering value: a bound mix, hundreds of times mud's
+    .friction_angle_deg = 40,   // engineering value: interlocked crushed stone
     .shear_modulus = 0.001,     // engineering value: shears at 1 % of the layer
     .restitution = 0.7,         // engineering value: a hard ball on a road
     .yield_strain = 0.005,      // engineering value: cracks at a few tenths of a percent

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "scene/keys.h"
-
 namespace divot::scene {
 namespace {
 
@@ -52,27 +50,66 @@ std::optional<std::size_t> index_in(const Part& part) {
 
 /// Whether `value` alone is a TOML value, and nothing follows it.
 bool is_value(const std::string& value) {
-  const auto parsed = parse_toml("value = " + value, "");
+  const auto parsed = parse_toml(fmt::format("value = {}", value), "");
   return parsed && parsed->size() == 1;
 }
 
 /// A document of one value at `parts`.
 Result<toml::table> document_of(std::span<const Part> parts, const Override& override) {
   std::string text;
-  for (const Part& part : parts) text += (text.empty() ? "" : ".") + quoted(part.text);
-  text += " = " + (is_value(override.value) ? override.value : quoted(override.value));
-  return parse_toml(text, source_of(override));
-}
-
-/// Whether scene files have a list of tables of that name.
-bool is_list(const std::string& path) {
-  const std::vector<KeyInfo> keys = scene_keys();
-  return std::any_of(keys.begin(), keys.end(), [&](const KeyInfo& key) { return key.path.rfind(path + "[]", 0) == 0; });
+  for (const Part& part : parts) text += fmt::format("{}{}", text.empty() ? "" : ".", quoted(part.text));
+  const std::string value = is_value(override.value) ? override.value : quoted(override.value);
+  return parse_toml(fmt::format("{} = {}", text, value), source_of(override));
 }
 
 std::string size_text(std::size_t size) {
-  if (size == 0) return "the scene has none";
-  return size == 1 ? "expected 0: the scene has one" : fmt::format("expected 0 to {}", size - 1);
+  if (size == 0) return "expected no index: the list is empty";
+  return size == 1 ? "expected 0, its only element" : fmt::format("expected 0 to {}", size - 1);
+}
+
+/// Where in a document a path's value goes: into `container`, as the path's part `depth` and those below it.
+struct Slot {
+  toml::node* container;
+  std::size_t depth;
+};
+
+/// What a part of a path stands for in `container`; null for a key that a table does not hold.
+Result<toml::node*> child(toml::node& container, const Part& part, const std::string& path) {
+  if (toml::array* list = container.as_array()) {
+    const auto index = index_in(part);
+    if (!index) {
+      return fail({{}, 0, {}, path + " is a list", "expected an index instead of " + quoted(part.text)});
+    }
+    if (*index >= list->size()) {
+      return fail({{}, 0, {}, fmt::format("{} has no element {}", path, *index), size_text(list->size())});
+    }
+    return list->get(*index);
+  }
+  toml::table* table = container.as_table();
+  if (table == nullptr) {
+    return fail({{}, 0, {}, fmt::format("{}: {}", path, described(container)), "expected a table or list there"});
+  }
+  if (part.bracket) return fail({{}, 0, {}, path + " is not a list", "expected a key instead of an index"});
+  return table->get(part.text);
+}
+
+/// Goes down a path as far as the document holds it, but not into what is to be replaced.
+Result<Slot> find_slot(toml::table& document, std::span<const Part> parts) {
+  Slot slot{&document, 0};
+  while (true) {
+    auto next = child(*slot.container, parts[slot.depth], joined(parts.first(slot.depth)));
+    if (!next) return tl::unexpected(next.error());
+    if (*next == nullptr || slot.depth + 1 == parts.size()) break;
+    slot = {*next, slot.depth + 1};
+  }
+  // Tables that are not there are made on the way, elements of lists are not.
+  for (std::size_t i = slot.depth + 1; i < parts.size(); ++i) {
+    if (!parts[i].bracket && !index_in(parts[i])) continue;
+    const std::string path = joined(parts.first(i));
+    return fail(
+        {{}, 0, {}, "the scene has no list " + path, fmt::format("expected the whole of it, as {}=[...]", path)});
+  }
+  return slot;
 }
 
 }  // namespace
@@ -80,54 +117,27 @@ std::string size_text(std::size_t size) {
 std::string source_of(const Override& override) { return "--set " + override.key; }
 
 std::optional<Error> apply_override(toml::table& document, const Override& override) {
-  const auto wrong = [&](std::string problem, std::string expected) {
-    return Error{source_of(override), 0, {}, std::move(problem), std::move(expected)};
+  const auto from_here = [&](Error error) {
+    error.file = source_of(override);
+    error.line = 0;
+    return error;
   };
-  const auto split_parts = split(override.key);
-  if (!split_parts) return wrong("not a key", "expected a dotted path as solver.blast or bodies.0.mass");
-  const std::span<const Part> parts = *split_parts;
-
-  // Down the path as far as the document holds it, but not into what is to be replaced.
-  toml::node* at = &document;
-  std::size_t depth = 0;
-  for (; depth < parts.size(); ++depth) {
-    const Part& part = parts[depth];
-    toml::node* next = nullptr;
-    if (toml::array* list = at->as_array()) {
-      const auto index = index_in(part);
-      if (!index)
-        return wrong(fmt::format("{} is a list", joined(parts.first(depth))),
-                     fmt::format("expected an index instead of {}", quoted(part.text)));
-      if (*index >= list->size())
-        return wrong(fmt::format("{} has no element {}", joined(parts.first(depth)), *index), size_text(list->size()));
-      next = list->get(*index);
-    } else if (toml::table* table = at->as_table()) {
-      if (part.bracket)
-        return wrong(fmt::format("{} is not a list", joined(parts.first(depth))), "expected a key instead of an index");
-      next = table->get(part.text);
-    } else {
-      return wrong(fmt::format("{}: {}", joined(parts.first(depth)), described(*at)),
-                   "expected a table or list to set a key of");
-    }
-    if (next == nullptr || depth + 1 == parts.size()) break;
-    at = next;
+  const auto parts = split(override.key);
+  if (!parts) {
+    return from_here({{}, 0, {}, "not a key", "expected a dotted path as solver.blast or bodies.0.mass"});
   }
-
-  // What is not there is made on the way, except elements of lists.
-  for (std::size_t i = depth; i + 1 < parts.size(); ++i) {
-    const std::string path = joined(parts.first(i + 1));
-    if (is_list(path) || parts[i + 1].bracket)
-      return wrong(fmt::format("{} has no element {}", path, parts[i + 1].text), size_text(0));
-  }
-  auto value =
-      document_of(at->is_array() ? std::span(parts).subspan(parts.size() - 1) : parts.subspan(depth), override);
-  if (!value) return value.error().front();
+  const auto slot = find_slot(document, *parts);
+  if (!slot) return from_here(slot.error().front());
+  const Part& part = (*parts)[slot->depth];
+  auto value = document_of(std::span(*parts).subspan(slot->depth), override);
+  if (!value) return from_here(value.error().front());
 
   // Moved, not copied: only then do nodes keep where they come from.
   value->begin()->second.visit([&](auto& node) {
-    if (toml::table* table = at->as_table()) table->insert_or_assign(parts[depth].text, std::move(node));
-    if (toml::array* list = at->as_array()) {
-      list->replace(list->begin() + static_cast<std::ptrdiff_t>(*index_in(parts[depth])), std::move(node));
+    if (toml::table* table = slot->container->as_table()) {
+      table->insert_or_assign(part.text, std::move(node));
+    } else if (toml::array* list = slot->container->as_array()) {
+      list->replace(list->begin() + static_cast<std::ptrdiff_t>(*index_in(part)), std::move(node));
     }
   });
   return std::nullopt;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "scene/keys.h"
 #include "scene/nearest.h"
@@ -58,7 +59,12 @@ std::vector<std::size_t> Reader::branches(std::span<const Branch> all, std::size
              fmt::format("expected {}", fmt::join(examples, " or ")));
   }
   if (present.size() > 1) {
-    error_at(frame.table, path(), fmt::format("holds {} at once", fmt::join(names, " and ")), "expected one of them");
+    // An override that came on top of the file is the one to blame.
+    const toml::node* where = frame.table;
+    for (const std::size_t i : present) {
+      if (overridden(peek(all[i].name)->source())) where = peek(all[i].name);
+    }
+    error_at(where, path(), fmt::format("holds {} at once", fmt::join(names, " and ")), "expected one of them");
   }
   return present;
 }
@@ -170,24 +176,46 @@ bool Reader::accept(const toml::node& node, std::optional<Error> error) {
 }
 
 void Reader::add(const toml::source_region& where, Error error) {
-  const bool overridden = where.path != nullptr && *where.path != file_;
-  error.file = overridden ? *where.path : file_;
-  error.line = overridden ? 0 : static_cast<int>(where.begin.line);
-  (overridden ? override_errors_ : errors_).push_back(std::move(error));
+  const bool from_override = overridden(where);
+  error.file = from_override ? *where.path : file_;
+  error.line = from_override ? 0 : static_cast<int>(where.begin.line);
+  (from_override ? override_errors_ : errors_).push_back(std::move(error));
+}
+
+bool Reader::overridden(const toml::source_region& where) const {
+  return where.path != nullptr && *where.path != file_;
+}
+
+std::string Reader::innermost(std::string path) const {
+  while (!path.empty() && places_.count(path) == 0) {
+    const auto cut = path.find_last_of(".[");
+    path.resize(cut == std::string::npos ? 0 : cut);
+  }
+  return path;
+}
+
+toml::source_region Reader::place_of(const std::string& path) const {
+  if (path.empty()) return {};
+  // What is wrong with a whole table began with the override inside it, if there is one.
+  for (auto inside = places_.lower_bound(path + "."); inside != places_.end(); ++inside) {
+    if (inside->first.rfind(path + ".", 0) != 0) break;
+    if (overridden(inside->second)) return inside->second;
+  }
+  return places_.at(path);
 }
 
 void Reader::add_located(const Errors& errors) {
   for (const Error& error : errors) {
-    const auto same = [&](const Error& other) { return other.key == error.key; };
-    if (std::any_of(errors_.begin(), errors_.end(), same)) continue;
-    if (std::any_of(override_errors_.begin(), override_errors_.end(), same)) continue;
-    // The innermost part of the path that the document holds.
-    std::string path = error.key;
-    while (!path.empty() && places_.count(path) == 0) {
-      const auto cut = path.find_last_of(".[");
-      path.resize(cut == std::string::npos ? 0 : cut);
-    }
-    add(path.empty() ? toml::source_region{} : places_[path], error);
+    const std::string place = innermost(error.key);
+    // Only a consequence: of something wrong inside the value, or of a value that could not be read.
+    const auto cause = [&](const Error& other) {
+      if (!place.empty() && other.key == place) return true;
+      if (other.key.rfind(error.key, 0) != 0) return false;
+      return other.key.size() == error.key.size() || std::strchr(".[", other.key[error.key.size()]) != nullptr;
+    };
+    if (std::any_of(errors_.begin(), errors_.end(), cause)) continue;
+    if (std::any_of(override_errors_.begin(), override_errors_.end(), cause)) continue;
+    add(place_of(place), error);
   }
 }
 

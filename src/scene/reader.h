@@ -17,7 +17,8 @@ class Reader : public Visitor {
   /// Reports the unknown keys of the document's top level. Call it once, after describe().
   void finish() { close_frame(); }
 
-  /// Adds errors that were found by path, at the lines of what they are about. Paths that have an error are left alone.
+  /// Adds errors that were found by path, at the lines of what they are about. What only follows from an error that is
+  /// already there is left out.
   void add_located(const Errors& errors);
 
   /// Everything found, in the order of the file, then of the overrides. Empties the reader.
@@ -69,6 +70,10 @@ class Reader : public Visitor {
   /// Adds `error`, if there is one, at the node; true when there was none and the value can be used.
   bool accept(const toml::node& node, std::optional<Error> error);
   void add(const toml::source_region& where, Error error);
+  bool overridden(const toml::source_region& where) const;
+  /// The longest part of `path` that the document holds; empty when it holds none.
+  std::string innermost(std::string path) const;
+  toml::source_region place_of(const std::string& path) const;
 
   std::string file_;
   std::vector<Frame> frames_;

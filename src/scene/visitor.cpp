@@ -37,7 +37,11 @@ std::string number_text(double value, int digits) {
   // Six digits where they say it all, which makes 1e12 of 1000000000000; otherwise as many as it takes.
   std::string out = fmt::format("{:.{}g}", value, digits > 0 ? digits : 6);
   if (digits == 0 && std::strtod(out.c_str(), nullptr) != value) out = fmt::format("{}", value);
-  if (const auto plus = out.find("e+"); plus != std::string::npos) out.erase(plus + 1, out[plus + 2] == '0' ? 2 : 1);
+  // 1e9 and 1e-9, not 1e+09 and 1e-09.
+  if (const auto e = out.find('e'); e != std::string::npos) {
+    if (out[e + 2] == '0') out.erase(e + 2, 1);
+    if (out[e + 1] == '+') out.erase(e + 1, 1);
+  }
   return out;
 }
 

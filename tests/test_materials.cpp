@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "divot/material.h"
+
+namespace divot {
+namespace {
+
+std::string first_key(const Material& material) {
+  const Errors errors = check(material);
+  return errors.empty() ? "" : errors.front().key;
+}
+
+TEST(Materials, PresetsAreFoundByNameAndAreInRange) {
+  ASSERT_EQ(material_presets().size(), 4u);
+  for (const char* name : {"paper", "dry_sand", "mud", "asphalt"}) {
+    const Material* preset = find_preset(name);
+    ASSERT_NE(preset, nullptr) << name;
+    EXPECT_EQ(preset->name, name);
+    for (const Error& error : check(*preset)) ADD_FAILURE() << name << ": " << error.text();
+  }
+  EXPECT_EQ(find_preset("granite"), nullptr);
+  EXPECT_EQ(find_preset(""), nullptr);
+}
+
+TEST(Materials, PaperIsTheStructsDefault) {
+  const Material* paper = find_preset("paper");
+  const Material defaults;
+  EXPECT_EQ(paper->name, defaults.name);
+  EXPECT_EQ(paper->particle_mass, defaults.particle_mass);
+  EXPECT_EQ(paper->dissociation_energy, defaults.dissociation_energy);
+  EXPECT_EQ(paper->blast_strength, defaults.blast_strength);
+  EXPECT_EQ(paper->blast_drag, defaults.blast_drag);
+}
+
+TEST(Materials, SoilsKeepTheirMeasuredOrder) {
+  const Material &sand = *find_preset("dry_sand"), &mud = *find_preset("mud"), &asphalt = *find_preset("asphalt");
+  // Sinkage under 50 kPa and a plate 0.1 m wide, as Wong's parameters give it.
+  const auto sinkage = [](const Material& m) {
+    return std::pow(50e3 / (m.bekker_kc / 0.1 + m.bekker_kphi), 1 / m.bekker_n);
+  };
+  EXPECT_NEAR(sinkage(sand), 0.0444, 0.0001);
+  EXPECT_NEAR(sinkage(mud), 0.7036, 0.0001);
+  EXPECT_LT(sinkage(asphalt), 0.001);
+  for (const Material* m : {&sand, &mud, &asphalt}) EXPECT_GT(m->elastic_stiffness, m->bekker_kphi) << m->name;
+}
+
+TEST(Materials, BlastKeysFollowMeasuredCraters) {
+  const Material& paper = *find_preset("paper");
+  const struct {
+    const char* name;
+    double radius, depth;  // over the cube root of the charge, m/kg^(1/3)
+  } measured[] = {{"dry_sand", 0.297, 0.149}, {"mud", 0.456, 0.228}, {"asphalt", 0.151, 0.079}};
+  for (const auto& crater : measured) {
+    const Material& soil = *find_preset(crater.name);
+    const double radius = 0.3566 * std::cbrt(paper.blast_strength / soil.blast_strength);
+    const double flow = (soil.blast_strength / paper.blast_strength) / (soil.blast_drag / paper.blast_drag);
+    EXPECT_NEAR(radius, crater.radius, 1e-9) << crater.name;
+    EXPECT_NEAR(0.143 * flow, crater.depth, 1e-9) << crater.name;
+  }
+}
+
+TEST(Materials, CheckNamesTheFieldThatIsWrong) {
+  EXPECT_EQ(first_key({.particle_mass = 0}), "particle_mass");
+  EXPECT_EQ(first_key({.dissociation_energy = -1}), "dissociation_energy");
+  EXPECT_EQ(first_key({.repulsion_exponent = 2}), "repulsion_exponent");
+  EXPECT_EQ(first_key({.bekker_kphi = 0}), "bekker_kphi");
+  EXPECT_EQ(first_key({.ground = false, .bekker_kphi = 0}), "");
+  EXPECT_EQ(first_key({.bekker_n = 3.5}), "bekker_n");
+  EXPECT_EQ(first_key({.friction_angle_deg = 61}), "friction_angle_deg");
+  EXPECT_EQ(first_key({.ejecta_share = 1}), "ejecta_share");
+  EXPECT_EQ(first_key({.cohesion = std::numeric_limits<double>::quiet_NaN()}), "cohesion");
+  EXPECT_EQ(first_key({.elastic_stiffness = std::numeric_limits<double>::infinity()}), "elastic_stiffness");
+  EXPECT_EQ(check(Material{.particle_mass = -1, .yield_strain = 0, .restitution = 2}).size(), 3u);
+}
+
+}  // namespace
+}  // namespace divot
