@@ -28,6 +28,7 @@ struct GridTerrain {
 struct DemTerrain {
   std::string path = {};  ///< relative paths start at the scene file's folder
   std::string crs = {};   ///< what the file's coordinates are (`EPSG:4326`), for formats that cannot say; empty: what the file says
+  double spacing = 0;     ///< m, resampled to this; 0: as fine as the file
   int band = 1;      ///< >= 1
 };
 

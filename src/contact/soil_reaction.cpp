@@ -67,7 +67,9 @@ bool load_of(const state::Body& body, const Ground& g, std::size_t k, const Vec3
   if (!under.below || under.height >= g.height[k]) return false;
   const laws::Medium& medium = s.media[g.material[k]];
   load.sinkage = g.fresh[k] - under.height;
-  const auto pressure = laws::ground_pressure<double>(medium, load.sinkage, g.plastic[k], patch(body, s), medium.elastic_stiffness);
+  laws::Pressure<double> pressure;
+  if (medium.ground)
+    pressure = laws::ground_pressure<double>(medium, load.sinkage, g.plastic[k], patch(body, s), medium.elastic_stiffness);
   load.plastic = pressure.yields ? load.sinkage - pressure.value / medium.elastic_stiffness : g.plastic[k];
 
   const double steep = std::max(kSteepestFlank, -under.normal.z);

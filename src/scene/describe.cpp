@@ -49,6 +49,11 @@ void describe_dem(Visitor& v, DemTerrain& dem) {
           .meaning = "coordinate system of a `dem` that cannot say it itself, as `EPSG:4326`",
           .default_text = "what the file says"},
          dem.crs);
+  v.number({.name = "spacing",
+            .unit = "m",
+            .range = between(0, kLong),
+            .meaning = "the `dem` is resampled to this distance between vertices; 0: as fine as the file"},
+           dem.spacing);
   v.whole({.name = "band", .range = between(1, 65535), .meaning = "band of the `dem` that holds heights"}, dem.band);
 }
 
@@ -56,7 +61,7 @@ void describe_terrain(Visitor& v, TerrainSource& terrain) {
   static constexpr const char* kMesh[] = {"mesh"};
   static constexpr const char* kMap[] = {"material_map"};
   static constexpr const char* kRefine[] = {"refine"};
-  static constexpr const char* kDemOnly[] = {"crs", "band"};
+  static constexpr const char* kDemOnly[] = {"crs", "spacing", "band"};
   static constexpr Branch kShapes[] = {{"grid", {}, "grid = { columns = 37, rows = 40, spacing = 10.9 }"},
                                        {"dem", kDemOnly, "dem = \"file.tif\""}};
   v.unsupported({kMesh, "meshes are not supported", "this version reads grid and dem"});

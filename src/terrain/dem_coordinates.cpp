@@ -107,7 +107,7 @@ Result<DemPixels> to_north_up(const DemTerrain& dem, DemPixels pixels, std::uint
     return fail_crs(dem, fmt::format("`{}` is no system for a map", pixels.crs.GetName()),
                     "expected a projected or a geographic one");
   }
-  if (!is_rotated(pixels)) return pixels;
+  if (!is_rotated(pixels) && dem.spacing == 0) return pixels;
   const OGRSpatialReference same = pixels.crs;
   return warp(dem, pixels, same, max_vertices);
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gdalwarper.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -31,8 +32,19 @@ GDALDatasetUniquePtr wrap(DemPixels& pixels) {
   return out;
 }
 
-// Size and place of the resampled grid; its pixels are as long as the source's on the diagonal.
-bool lay_out(GDALDataset& source, const std::string& target_wkt, DemPixels& out) {
+// The same area in square pixels of another size.
+void set_spacing(DemPixels& pixels, double spacing) {
+  const auto count = [&](std::uint32_t before, double size) {
+    return static_cast<std::uint32_t>(std::clamp(std::floor(before * std::abs(size) / spacing), 1.0, 4e9));
+  };
+  pixels.columns = count(pixels.columns, pixels.transform[1]);
+  pixels.rows = count(pixels.rows, pixels.transform[5]);
+  pixels.transform[1] = spacing;
+  pixels.transform[5] = -spacing;
+}
+
+// Size and place of the resampled grid; without a spacing, its pixels are as long as the source's on the diagonal.
+bool lay_out(GDALDataset& source, const std::string& target_wkt, double spacing, DemPixels& out) {
   CPLStringList options;
   if (!target_wkt.empty()) options.SetNameValue("DST_SRS", target_wkt.c_str());
   const std::unique_ptr<void, void (*)(void*)> transformer(
@@ -44,6 +56,7 @@ bool lay_out(GDALDataset& source, const std::string& target_wkt, DemPixels& out)
   }
   out.columns = static_cast<std::uint32_t>(columns);
   out.rows = static_cast<std::uint32_t>(rows);
+  if (spacing > 0) set_spacing(out, spacing);
   return true;
 }
 
@@ -101,7 +114,7 @@ Result<DemPixels> warp(const DemTerrain& dem, DemPixels& source, const OGRSpatia
   const GDALDatasetUniquePtr from = wrap(source);
   DemPixels out;
   out.crs = target;
-  if (!from || !lay_out(*from, wkt_of(target), out)) return fail_warp();
+  if (!from || !lay_out(*from, wkt_of(target), dem.spacing, out)) return fail_warp();
   if (auto ok = check_size(out.columns, out.rows, max_vertices, dem_error(dem, {}, {})); !ok) {
     return tl::unexpected(ok.error());
   }
