@@ -36,8 +36,8 @@ void wake_pressed(const Scratch::PerBody& scratch, const state::Surface& surface
 void release(const Scratch::PerBody& scratch, state::Particles& p, state::Soil& soil, const state::Surface& surface) {
   for (const Press& press : scratch.last) {
     const std::uint32_t column = surface.column[press.vertex], i = soil.particle[column];
-    if (i == kNone || p.hold[i] != state::Hold::carried) continue;
-    p.hold[i] = state::Hold::free;
+    if (i == kNone || p.hold[i] != Hold::carried) continue;
+    p.hold[i] = Hold::free;
     p.set_velocity(i, {});
     if (!pressed_before(scratch.presses, press.vertex)) soil.shear[column] = {};
   }
@@ -55,9 +55,9 @@ void press(const Press& press, state::Particles& p, state::Soil& soil, const sta
   const float fresh = soil.fresh_height(column);
   const Vec3 place = keep_shape(press.position, soil.original[column], surface.spacing);
   // Where two bodies press one vertex, the deeper one carries it.
-  const bool shared = p.hold[i] == state::Hold::carried;
+  const bool shared = p.hold[i] == Hold::carried;
   if (!shared || place.z < p.z[i] + dt * p.vz[i]) p.set_velocity(i, (1 / dt) * (place - p.position(i)));
-  p.hold[i] = state::Hold::carried;
+  p.hold[i] = Hold::carried;
   p.flow_rate[i] = 0;
   p.still_steps[i] = 0;
   soil.shear[column] = press.shear;

@@ -44,7 +44,7 @@ Footing footing_at(std::uint32_t vertex, const Situation& s) {
     f.area = s.soil.area[column];
     f.shear = to_double(s.soil.shear[column]);
     const std::uint32_t i = s.soil.particle[column];
-    f.carried = i != kNone && s.particles.hold[i] == state::Hold::carried;
+    f.carried = i != kNone && s.particles.hold[i] == Hold::carried;
     if (i != kNone) f.speed = s.particles.vz[i];
     if (f.carried) f.pull = s.particles.held_pull[i];
   }
