@@ -17,8 +17,8 @@ class Jobs {
 
   int thread_count() const;
 
-  /// Calls `work(begin, end)` on ranges that cover [0, count) once. Ranges are at least `grain` long, except the last.
-  /// Returns when all are done. A range that fits one grain runs on the calling thread.
+  /// Calls `work(begin, end)` on ranges that cover [0, count) once. Ranges are not cut below half of `grain`.
+  /// Returns when all are done. A count of at most `grain` runs on the calling thread.
   void for_ranges(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& work) const;
 

@@ -11,7 +11,7 @@ namespace divot::contact {
 namespace {
 
 // The surface may follow a body sideways by this share of the spacing in all, so that its triangles keep their shape.
-constexpr float kMostDrag = 0.35f;
+constexpr float kMostDrag = 0.1f;
 
 void meet_ground(state::Body& body, const Situation& s, Scratch::PerBody& scratch) {
   body.near_left -= s.ground_moved;

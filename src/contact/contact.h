@@ -33,6 +33,7 @@ struct Press {
 struct Ground {
   std::vector<std::uint32_t> vertex;  ///< ascending
   std::vector<std::uint8_t> material;
+  std::vector<std::uint8_t> carried;  ///< 1: a body has it since the last step
   std::vector<double> x, y;           ///< m
   std::vector<double> height;         ///< m: at or above it nothing is touched
   std::vector<double> fresh;          ///< m: sinkage counts from here

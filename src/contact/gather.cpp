@@ -9,7 +9,7 @@ namespace divot::contact {
 namespace {
 
 void clear(Ground& g) {
-  g.vertex.clear(), g.material.clear(), g.shear.clear();
+  g.vertex.clear(), g.material.clear(), g.carried.clear(), g.shear.clear();
   for (auto* array : {&g.x, &g.y, &g.height, &g.fresh, &g.original, &g.plastic, &g.area, &g.mass, &g.pull, &g.speed})
     array->clear();
 }
@@ -52,6 +52,7 @@ void gather(const state::Body& body, const Situation& s, Ground& g) {
       append_untouched(vertex, s, g);
     else
       append_touched(vertex, column, s, g);
+    g.carried.push_back(carried);
     g.pull.push_back(carried ? s.particles.held_pull[particle] : 0);
     g.speed.push_back(particle != kNone ? s.particles.vz[particle] : 0);
     g.mass.push_back(s.media[g.material.back()].areal_mass * g.area.back());

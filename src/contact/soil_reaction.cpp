@@ -60,28 +60,39 @@ struct Load {
 
 double patch(const state::Body& body, const Situation& s) { return std::max<double>(body.patch_width, 0.5 * s.surface.spacing); }
 
-// What column k does to the body at `position` moving with `velocity`, `spin`; false where it does not touch.
+// What column k does to the body, which starts the step as `body` is, at `position` moving with `velocity`, `spin`; false where it does not touch.
 bool load_of(const state::Body& body, const Ground& g, std::size_t k, const Vec3d& position, const Vec3d& velocity,
              const Vec3d& spin, const Situation& s, Load& load) {
   const Underside under = underside(body, position, g.x[k], g.y[k]);
   if (!under.below || under.height >= g.height[k]) return false;
   const laws::Medium& medium = s.media[g.material[k]];
   load.sinkage = g.fresh[k] - under.height;
-  const auto pressure = laws::ground_pressure<double>(medium, load.sinkage, g.plastic[k], patch(body, s), medium.elastic_stiffness);
+  laws::Pressure<double> pressure;
+  if (medium.ground)
+    pressure = laws::ground_pressure<double>(medium, load.sinkage, g.plastic[k], patch(body, s), medium.elastic_stiffness);
   load.plastic = pressure.yields ? load.sinkage - pressure.value / medium.elastic_stiffness : g.plastic[k];
 
   const double steep = std::max(kSteepestFlank, -under.normal.z);
   load.normal = under.normal;
   load.lift = {-under.normal.x / steep, -under.normal.y / steep, 1};
   // The particle's own inertia and what cohesion does to it come on top of the soil's pressure.
+  // One that the body carries already moves with it; others are met at their own speed.
   const double inertia = g.mass[k] / s.dt;
-  load.push = pressure.value * g.area[k] + g.pull[k] + inertia * (g.speed[k] - dot(load.lift, velocity));
+  const double met = g.carried[k] ? dot(load.lift, body.velocity) : g.speed[k];
+  const double rising = dot(load.lift, velocity);  // of the underside over this column, m/s
+  load.push = pressure.value * g.area[k] + g.pull[k] + inertia * (met - rising);
   load.slope = pressure.slope * g.area[k] + inertia / s.dt;
+  // Soil that is being compressed radiates waves: without that, a ball set down gently would sink as if it were dropped.
+  if (rising < 0 && medium.ground) {
+    load.push -= medium.ground_damping * g.area[k] * rising;
+    load.slope += medium.ground_damping * g.area[k] / s.dt;
+  }
   if (load.push <= 0) load.push = load.slope = 0;  // soil does not pull
   load.arm = {g.x[k] - position.x, g.y[k] - position.y, under.height - position.z};
 
-  // Shear displacement grows with slip until the soil slides [Janosi & Hanamoto]; the body's own friction can slide before.
-  const Vec3d slip = minus_normal_part(velocity + cross(spin, load.arm), under.normal);
+  // Shear displacement grows with slip against the column, which goes up and down with the underside, until the soil slides
+  // [Janosi & Hanamoto]; the body's own friction can slide before.
+  const Vec3d slip = minus_normal_part(velocity + cross(spin, load.arm) - Vec3d{0, 0, rising}, under.normal);
   load.shear = g.shear[k] + s.dt * slip;
   const double j = length(load.shear), most = laws::kSlideShear * medium.shear_modulus;
   if (j > most) load.shear *= most / j;

@@ -1,14 +1,22 @@
 #include "divot/jobs.h"
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
+
 namespace divot {
 
 struct Jobs::Arena {
-  explicit Arena(int threads) : arena(threads) {}
+  explicit Arena(int threads)
+      : limit(tbb::global_control::max_allowed_parallelism,
+              std::max<std::size_t>(static_cast<std::size_t>(threads), tbb::info::default_concurrency())),
+        arena(threads) {}
+  // More threads than cores are allowed, and oneTBB does not complain about them.
+  tbb::global_control limit;
   mutable tbb::task_arena arena;
 };
 
