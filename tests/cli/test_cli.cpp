@@ -400,8 +400,8 @@ TEST(Progress, LineFitsTheTerminal) {
 }
 
 TEST(Progress, LineSaysHowFarAndHowLong) {
-  EXPECT_EQ(cli::progress_line(6, 12, 60, 50), "6.00 of 12 s, 0.1 x real time, 1:00 min left");
-  EXPECT_EQ(cli::progress_line(6, 12, 60, 63), "[########        ] 6.00 of 12 s, 0.1 x real time, 1:00 min left");
+  EXPECT_EQ(cli::progress_line(6, 12, 60, 51), "6.00 of 12 s, 0.10 x real time, 1:00 min left");
+  EXPECT_EQ(cli::progress_line(6, 12, 60, 64), "[########        ] 6.00 of 12 s, 0.10 x real time, 1:00 min left");
   EXPECT_EQ(cli::progress_line(0, 12, 1, 30), "[               ] 0.00 of 12 s");
 }
 
