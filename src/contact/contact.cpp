@@ -16,8 +16,8 @@ constexpr float kMostDrag = 0.1f;
 void meet_ground(state::Body& body, const Situation& s, Scratch::PerBody& scratch) {
   body.near_left -= s.ground_moved;
   find_near(body, s, scratch);
-  gather(body, s, scratch.ground);
-  meet_soil(body, scratch.ground, s);
+  gather(body, s, scratch.presses, scratch.footings);
+  meet_soil(body, scratch.footings, s, scratch.contacts);
 }
 
 bool pressed_before(const std::vector<Press>& last, std::uint32_t vertex) {
@@ -80,7 +80,7 @@ void move_bodies(std::span<state::Body> bodies, RigidBodies& rigid, const Situat
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Scratch::PerBody& own = scratch.bodies[i];
     std::swap(own.last, own.presses);
-    record_presses(bodies[i], own.ground, s, own.presses);
+    record_presses(bodies[i], own.footings, own.contacts, own.presses);
     bodies[i].near_left -= length(bodies[i].position - before[i]);
     wake_pressed(own, s.surface, wake);
   }

@@ -20,7 +20,7 @@ namespace divot::neighbours {
 /// When rows are rebuilt and how far they reach, m.
 struct Reach {
   float cutoff = 0;      ///< range of cohesion
-  float skin = 0;        ///< more than that, so that rows hold every pair in range until one particle has moved half of it
+  float skin = 0;        ///< more than that, so that rows hold every pair in range until two have come nearer by that much
   Neighbours structure = Neighbours::grid;
   UpdatePolicy policy;
 };
