@@ -15,6 +15,7 @@
 #include "divot/divot.h"
 #include "laws/medium.h"
 #include "neighbours/neighbours.h"
+#include "state/motion.h"
 #include "state/particles.h"
 #include "state/soil.h"
 #include "state/surface.h"
