@@ -99,14 +99,9 @@ void take_up_slack(const state::Body& body, const Situation& s, const std::vecto
 
 void gather(const state::Body& body, const Situation& s, const std::vector<Press>& last, std::vector<Footing>& footings) {
   footings.clear();
-  const double travel = length(body.velocity) * s.dt + length(s.gravity) * s.dt * s.dt + 0.5 * s.surface.spacing;
-  for (const std::uint32_t vertex : body.near) {
-    const Vec3 p = s.surface.position[vertex];
-    const double dx = p.x - body.position.x, dy = p.y - body.position.y, wide = body.radius + travel;
-    const double side = wide * wide - dx * dx - dy * dy;
-    if (side < 0 || p.z < body.position.z - std::sqrt(side) - travel) continue;
-    footings.push_back(footing_at(vertex, s));
-  }
+  const double reach = step_reach(body, s);
+  for (const std::uint32_t vertex : body.near)
+    if (within_reach(body, s.surface.position[vertex], reach)) footings.push_back(footing_at(vertex, s));
   meet_at_lowest_point(body, s, footings);
   for (Footing& f : footings) take_up_slack(body, s, last, f);
 }

@@ -8,6 +8,8 @@
 
 namespace divot::state {
 
+using divot::Hold;
+
 /// The surface particle system: every vertex that is awake, and the ring of anchors around them, ascending by vertex so that rows
 /// near in memory are near on the ground.
 struct Particles {
