@@ -56,12 +56,12 @@ void land_soil(const state::Blast& blast, float volume, state::Particles& p, sta
   }
 }
 
-// A blast is over when its pulse is and nothing it pushed flows any more.
-bool still_flows(const state::Blast& blast, const state::Particles& p, const state::Soil& soil, double time) {
+// A blast is over when its pulse is and what it pushed has come to rest.
+bool still_acts(const state::Blast& blast, const state::Particles& p, const state::Soil& soil, double time) {
   if (time < blast.start + blast.pulse) return true;
   return std::any_of(blast.column.begin(), blast.column.end(), [&](std::uint32_t column) {
     const std::uint32_t i = soil.particle[column];
-    return i != kNone && p.flow_rate[i] > 0;
+    return i != kNone && p.hold[i] == Hold::free;
   });
 }
 
@@ -93,7 +93,7 @@ void update(state::Particles& p, state::Soil& soil, state::Surface& surface, std
     p.set_velocity(i, {});
     hand_over(p, i, soil);
   }
-  for (state::Blast& blast : blasts) blast.active = blast.active && still_flows(blast, p, soil, time);
+  for (state::Blast& blast : blasts) blast.active = blast.active && still_acts(blast, p, soil, time);
 }
 
 }  // namespace divot::settle

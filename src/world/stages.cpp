@@ -14,8 +14,8 @@ constexpr double kStillSpeed = 1e-3, kStillTime = 0.2;
 // Substeps follow the fastest thing in the particle system. Semi-implicit Euler is stable while (frequency h)^2 + 2 damping h
 // stays below 4, so each times h may be 1.
 constexpr int kMostSubsteps = 64;
-// Share of a blast's pulse that one substep may take.
-constexpr double kPulseShare = 0.25;
+// Share of a blast's pulse that one substep may take while it is violent.
+constexpr double kPulseShare = 0.125;
 
 struct Substeps {
   int count = 1;
@@ -39,15 +39,13 @@ double fastest_rate(const state::Particles& p, std::span<const laws::Medium> med
 }
 
 // While its pulse lasts, and then for eight relaxation times of what it made flow.
-bool acts(const state::Blast& blast, double time) { return blast.active && time < blast.start + 17 * blast.pulse; }
-
-bool in_pulse(const state::Blast& blast, double time) { return blast.active && time < blast.start + blast.pulse; }
+bool is_violent(const state::Blast& blast, double time) { return blast.active && time < blast.start + 17 * blast.pulse; }
 
 Substeps plan_substeps(const state::Particles& p, std::span<const laws::Medium> media, std::span<const state::Blast> blasts,
                        double time, double dt) {
   double wanted = dt * fastest_rate(p, media);
   for (const state::Blast& blast : blasts)
-    if (in_pulse(blast, time)) wanted = std::max(wanted, dt / (kPulseShare * blast.pulse));
+    if (is_violent(blast, time)) wanted = std::max(wanted, dt / (kPulseShare * blast.pulse));
   Substeps plan;
   plan.count = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSubsteps);
   plan.limited = wanted > kMostSubsteps;
@@ -130,7 +128,7 @@ void World::Impl::find_neighbours(bool particles_changed) {
   });
 }
 
-void World::Impl::move_particles(StepReport& report) {
+void World::Impl::move_particles(bool particles_changed, StepReport& report) {
   if (particles.size() == 0) return;
   const Substeps plan = plan_substeps(particles, media, blasts, time(), scene.dt);
   report.substeps = plan.count;
@@ -146,7 +144,8 @@ void World::Impl::move_particles(StepReport& report) {
   const double h = scene.dt / plan.count;
   for (int k = 0; k < plan.count; ++k) {
     const double at = time() + k * h;
-    const bool blast_acts = std::any_of(blasts.begin(), blasts.end(), [&](const state::Blast& b) { return acts(b, at); });
+    find_neighbours(particles_changed && k == 0);
+    const bool blast_acts = std::any_of(blasts.begin(), blasts.end(), [](const state::Blast& b) { return b.active; });
     const bool rk4 = scene.solver.integrator == Integrator::rk4 || (scene.solver.integrator == Integrator::automatic && blast_acts);
     timed(Stage::integration, [&] {
       if (rk4)
