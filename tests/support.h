@@ -109,7 +109,7 @@ inline void run_to(World& world, double time) {
 /// How many particles are awake and no anchors.
 inline std::size_t awake(const World& world) {
   std::size_t count = 0;
-  for (const std::uint8_t fixed : world.particles().fixed) count += fixed != 1;
+  for (const std::uint8_t fixed : world.particles().fixed) count += fixed == 0;
   return count;
 }
 
