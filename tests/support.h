@@ -76,7 +76,7 @@ inline Sheet make_sheet(const GridTerrain& grid, const std::vector<Material>& ma
     p.set_position(v, s.surface.position[v]);
     p.material[v] = s.surface.material[v];
     p.mass[v] = s.media[p.material[v]].areal_mass * s.soil.area[p.column[v]];
-    p.hold[v] = state::Hold::free;
+    p.hold[v] = Hold::free;
   }
   return s;
 }
@@ -109,7 +109,7 @@ inline void run_to(World& world, double time) {
 /// How many particles are awake and no anchors.
 inline std::size_t awake(const World& world) {
   std::size_t count = 0;
-  for (const std::uint8_t fixed : world.particles().fixed) count += fixed == 0;
+  for (const Hold hold : world.particles().hold) count += hold != Hold::anchor;
   return count;
 }
 

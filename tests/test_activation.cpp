@@ -8,8 +8,6 @@
 namespace divot::activation {
 namespace {
 
-using state::Hold;
-
 struct Ground {
   explicit Ground(int size) : surface(test::make_surface({.columns = size, .rows = size, .spacing = 1})) {}
 

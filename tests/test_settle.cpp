@@ -5,14 +5,13 @@
 namespace divot::settle {
 namespace {
 
-using state::Hold;
 using test::Sheet;
 
 Sheet small_sheet() { return test::make_sheet({.columns = 5, .rows = 5, .spacing = 1}); }
 
 struct Step {
   std::vector<state::Blast> blasts;
-  Stillness stillness{0.01f, 3};
+  Stillness stillness{0.01f, 0, 3};
   Moved moved;
   void operator()(Sheet& s, double time = 0) {
     update(s.particles, s.soil, s.surface, blasts, s.media, stillness, time, moved);
@@ -55,7 +54,7 @@ TEST(Settle, SleepersGiveUpTheirElasticRest) {
   const std::uint32_t column = s.particles.column[12];
   s.soil.plastic[column] = 0.3f, s.soil.rest[column].z = -0.3f;
   s.particles.z[12] = -0.4f, s.particles.x[12] += 0.05f, s.particles.vz[12] = 0.001f, s.particles.flow_rate[12] = 2;
-  Step step{.stillness = {0.01f, 1}};
+  Step step{.stillness = {0.01f, 0, 1}};
   const float fresh = s.soil.fresh_height(column);
   step(s);
   EXPECT_EQ(s.particles.hold[12], Hold::asleep);

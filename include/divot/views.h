@@ -18,12 +18,20 @@ struct SurfaceView {
   double spacing = 0;                         ///< m, mean grid spacing
 };
 
+/// What may move a particle.
+enum class Hold : std::uint8_t {
+  free,     ///< forces
+  carried,  ///< the body that presses on it
+  anchor,   ///< nothing: it stands at the border of the awake ground
+  asleep,   ///< nothing: it has been still and leaves in the next step
+};
+
 /// The particles that are awake, without a copy. Valid until the world's next step.
 struct ParticleView {
   std::span<const std::uint32_t> vertices;  ///< [particle] the surface vertex it moves, ascending
   std::span<const float> x, y, z;           ///< [particle] m, relative to the surface's origin
   std::span<const float> vx, vy, vz;        ///< [particle] m/s
-  std::span<const std::uint8_t> fixed;      ///< [particle] 1: an anchor at the border, which does not move
+  std::span<const Hold> hold;       ///< [particle] what moves it, a Hold
 };
 
 /// A body as it is now.

@@ -5,7 +5,6 @@
 namespace divot::activation {
 namespace {
 
-using state::Hold;
 
 void sort_unique(std::vector<std::uint32_t>& list) {
   std::sort(list.begin(), list.end());

@@ -6,13 +6,6 @@
 namespace divot::contact {
 namespace {
 
-// Could the body touch this vertex after moving by less than `reach`?
-bool could_touch(const state::Body& body, const Vec3& p, double reach) {
-  const double dx = p.x - body.position.x, dy = p.y - body.position.y, wide = body.radius + reach;
-  const double side = wide * wide - dx * dx - dy * dy;
-  return side >= 0 && p.z >= body.position.z - std::sqrt(side);
-}
-
 double horizontal_distance_squared(const state::Body& body, const Vec3& p) {
   const double dx = p.x - body.position.x, dy = p.y - body.position.y;
   return dx * dx + dy * dy;
@@ -78,13 +71,24 @@ Underside underside(const state::Body& body, const Vec3d& position, double x, do
   return {true, position.z - h, {dx / body.radius, dy / body.radius, -h / body.radius}};
 }
 
-void find_near(state::Body& body, const Situation& s, Scratch::PerBody& scratch) {
-  const double travel = length(body.velocity) * s.dt + length(s.gravity) * s.dt * s.dt;
-  const bool adaptive = s.policy.kind == UpdatePolicy::Kind::adaptive;
-  if (adaptive && body.near_left > 2 * travel) return;
+bool within_reach(const state::Body& body, const Vec3& p, double reach) {
+  const double dx = p.x - body.position.x, dy = p.y - body.position.y, wide = body.radius + reach;
+  const double side = wide * wide - dx * dx - dy * dy;
+  return side >= 0 && p.z >= body.position.z - std::sqrt(side);
+}
 
-  // What is found now serves for a few steps: for half a spacing of travel, or for what this step needs.
-  const double reach = adaptive ? std::max<double>(0.5 * s.surface.spacing, 4 * travel) : 2 * travel + s.ground_moved;
+double step_reach(const state::Body& body, const Situation& s) {
+  const double travel = length(body.velocity) * s.dt + length(s.gravity) * s.dt * s.dt;
+  return travel + 0.5 * s.surface.spacing;
+}
+
+void find_near(state::Body& body, const Situation& s, Scratch::PerBody& scratch) {
+  const bool adaptive = s.policy.kind == UpdatePolicy::Kind::adaptive;
+  const double needed = step_reach(body, s);
+  if (adaptive && body.near_left > needed) return;
+
+  // With the adaptive policy what is found now serves for a few steps more.
+  const double reach = needed + (adaptive ? std::max<double>(0.5 * s.surface.spacing, 3 * needed) : s.ground_moved);
   bool walked = false;
   if (adaptive && body.last_vertex != kNone) {
     const std::uint32_t below = walk(body, s.surface, body.last_vertex);
@@ -104,7 +108,7 @@ void find_near(state::Body& body, const Situation& s, Scratch::PerBody& scratch)
   }
   body.near.clear();
   for (const std::uint32_t v : scratch.found)
-    if (could_touch(body, s.surface.position[v], reach)) body.near.push_back(v);
+    if (within_reach(body, s.surface.position[v], reach)) body.near.push_back(v);
   body.near_left = reach;
 }
 

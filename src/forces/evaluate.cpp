@@ -65,7 +65,7 @@ void add_blast(state::Particles& p, const state::Blast& blast, const Field& fiel
   jobs.for_ranges(blast.column.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t i = field.soil.particle[blast.column[k]];
-      if (i == kNone || p.hold[i] != state::Hold::free) continue;
+      if (i == kNone || p.hold[i] != Hold::free) continue;
       const Vec3 force = (p.mass[i] * blast.push[k] * shape) * blast.direction;
       p.fx[i] += force.x, p.fy[i] += force.y, p.fz[i] += force.z;
     }
@@ -125,10 +125,10 @@ void evaluate(state::Particles& p, const state::MotionView& motion, double time,
   jobs.for_ranges(p.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Vec3 force;
-      if (p.hold[i] != state::Hold::anchor) {
+      if (p.hold[i] != Hold::anchor) {
         force = pair_force(i, p, motion, field);
         p.held_pull[i] = force.z;
-        force = p.hold[i] == state::Hold::free ? force + own_force(i, p, motion, field) : Vec3{};
+        force = p.hold[i] == Hold::free ? force + own_force(i, p, motion, field) : Vec3{};
       }
       p.fx[i] = force.x, p.fy[i] = force.y, p.fz[i] = force.z;
     }
@@ -142,7 +142,7 @@ void yield(const state::Particles& p, state::Bonds& bonds, state::Soil& soil, st
   jobs.for_ranges(p.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       yield_bonds(i, p, bonds, media);
-      if (p.hold[i] == state::Hold::free) yield_ground(i, p, soil, media[p.material[i]], resolution);
+      if (p.hold[i] == Hold::free) yield_ground(i, p, soil, media[p.material[i]], resolution);
     }
   });
 }

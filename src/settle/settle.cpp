@@ -7,16 +7,20 @@
 namespace divot::settle {
 namespace {
 
-void move_surface(const state::Particles& p, state::Surface& surface, Moved& moved) {
+// Moves the surface with its particles and counts for how long each has been still: by its speed, or because it has not come
+// further than that speed would bring it. Far from the origin a creep can be too slow for a float to take a step.
+void move_surface(state::Particles& p, state::Surface& surface, const Stillness& stillness, Moved& moved) {
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (p.hold[i] == state::Hold::anchor) continue;
+    if (p.hold[i] == Hold::anchor) continue;
     Vec3& place = surface.position[p.vertex[i]];
     const float step = length(p.position(i) - place);
+    const bool still = length(p.velocity(i)) < stillness.speed || step < stillness.step;
+    p.still_steps[i] = still ? static_cast<std::uint16_t>(std::min(p.still_steps[i] + 1, 0xffff)) : std::uint16_t{0};
     if (step == 0) continue;
     place = p.position(i);
     moved.vertices.push_back(p.vertex[i]);
     moved.distance = std::max(moved.distance, step);
-    if (p.hold[i] == state::Hold::free) moved.free_distance = std::max(moved.free_distance, step);
+    if (p.hold[i] == Hold::free) moved.free_distance = std::max(moved.free_distance, step);
   }
 }
 
@@ -43,10 +47,8 @@ void land_soil(const state::Blast& blast, float volume, state::Particles& p, sta
     const float height = volume * blast.landing_height[k];
     soil.added[column] += height;
     soil.rest[column].z += height;
-    if (i != kNone) {
-      p.z[i] += height;
-      continue;
-    }
+    if (i != kNone) p.z[i] += height;
+    if (i != kNone && p.hold[i] != Hold::anchor) continue;  // its surface follows below
     surface.position[soil.vertex[column]].z += height;
     moved.vertices.push_back(soil.vertex[column]);
     moved.distance = std::max(moved.distance, height);
@@ -81,14 +83,12 @@ void update(state::Particles& p, state::Soil& soil, state::Surface& surface, std
     const double thrown = throw_soil(blast, p, surface, soil, media);
     if (thrown > 0) land_soil(blast, static_cast<float>(thrown), p, surface, soil, moved);
   }
-  move_surface(p, surface, moved);
+  move_surface(p, surface, stillness, moved);
 
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (p.hold[i] != state::Hold::free) continue;
-    const bool still = length(p.velocity(i)) < stillness.speed;
-    p.still_steps[i] = still ? static_cast<std::uint16_t>(std::min(p.still_steps[i] + 1, 0xffff)) : std::uint16_t{0};
+    if (p.hold[i] != Hold::free) continue;
     if (p.still_steps[i] < stillness.steps) continue;
-    p.hold[i] = state::Hold::asleep;
+    p.hold[i] = Hold::asleep;
     p.flow_rate[i] = 0;
     p.set_velocity(i, {});
     hand_over(p, i, soil);

@@ -25,9 +25,10 @@ struct Moved {
   float free_distance = 0;              ///< m, the furthest of those no body carried
 };
 
-/// A particle slower than this for so many steps goes to sleep.
+/// A particle slower than this, or that moves less than this in each step, for so many steps goes to sleep.
 struct Stillness {
   float speed = 0;  ///< m/s
+  float step = 0;   ///< m
   std::uint16_t steps = 1;
 };
 

@@ -4,16 +4,11 @@
 #include <vector>
 
 #include "divot/vec.h"
+#include "divot/views.h"
 
 namespace divot::state {
 
-/// What may move a particle.
-enum class Hold : std::uint8_t {
-  free,     ///< forces
-  carried,  ///< the body that presses on it: velocity is given for this step
-  anchor,   ///< nothing: it stands at the border of the awake ground
-  asleep,   ///< nothing: it has been still and leaves in the next step
-};
+using divot::Hold;
 
 /// The surface particle system: every vertex that is awake, and the ring of anchors around them, ascending by vertex so that rows
 /// near in memory are near on the ground.

@@ -27,7 +27,7 @@ struct Substeps {
 double fastest_rate(const state::Particles& p, std::span<const laws::Medium> media) {
   double fastest = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (p.hold[i] != state::Hold::free) continue;
+    if (p.hold[i] != Hold::free) continue;
     const laws::Medium& m = media[p.material[i]];
     const double ground = m.ground ? m.elastic_stiffness / m.areal_mass : 0;
     const double frequency = std::sqrt(laws::lattice_stiffness(m) / p.mass[i] + ground);
@@ -112,10 +112,10 @@ bool World::Impl::wake_and_sleep() {
     for (const state::Blast& blast : blasts)
       if (blast.active && blast.start == time())
         for (const std::uint32_t column : blast.column)
-          if (const std::uint32_t i = soil.particle[column]; i != kNone && particles.hold[i] == state::Hold::free)
+          if (const std::uint32_t i = soil.particle[column]; i != kNone && particles.hold[i] == Hold::free)
             particles.flow_rate[i] = std::max(particles.flow_rate[i], blast.flow_rate);
     std::size_t awake = 0;
-    for (const state::Hold hold : particles.hold) awake += hold != state::Hold::anchor;
+    for (const Hold hold : particles.hold) awake += hold != Hold::anchor;
     peak_particles = std::max(peak_particles, awake);
     return changed;
   });
@@ -161,7 +161,8 @@ void World::Impl::move_particles(StepReport& report) {
 
 void World::Impl::settle_ground() {
   timed(Stage::settle, [&] {
-    const settle::Stillness stillness{static_cast<float>(kStillSpeed) * surface.spacing,
+    const double speed = kStillSpeed * surface.spacing;
+    const settle::Stillness stillness{static_cast<float>(speed), static_cast<float>(speed * scene.dt),
                                       static_cast<std::uint16_t>(std::clamp(std::ceil(kStillTime / scene.dt), 2.0, 60000.0))};
     settle::update(particles, soil, surface, blasts, media, stillness, time() + scene.dt, moved);
     for (const std::uint32_t vertex : moved.vertices) dirty_chunk[vertex / kDirtyChunk] = true;
