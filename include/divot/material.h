@@ -30,7 +30,7 @@ struct Material {
   double bekker_kphi = 1.2;             ///< N/m^(n+2); kc/b + kphi must stay > 0
   double bekker_n = 1.0;                ///< 1, in (0, 3]
   double elastic_stiffness = 12.0;      ///< unloading and reloading, Pa/m, > 0
-  double ground_damping_ratio = 0.1;    ///< of ground that moves with a particle or is compressed, 1 is critical, >= 0
+  double ground_damping_ratio = 0.15;   ///< of ground that moves with a particle or is compressed, 1 is critical, >= 0
   double cohesion = 1.0;                ///< c, Pa, >= 0
   double friction_angle_deg = 30.0;     ///< phi, degrees, [0, 60]
   double shear_modulus = 0.5;           ///< K of Janosi-Hanamoto, m, > 0

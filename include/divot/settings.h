@@ -25,8 +25,8 @@ struct Settings {
   Neighbours neighbours = Neighbours::grid;
   UpdatePolicy neighbour_update;
   UpdatePolicy bvh_update;
-  double cutoff = 1.75;  ///< range of cohesion in grid spacings, [1.1, 4]; 1.75 reaches the eight nearest on a square grid
-  double skin = 0.4;     ///< reach added to neighbour rows so that they last, in grid spacings, (0, 2]
+  double cutoff = 1.6;  ///< range of cohesion in grid spacings, [1.1, 4]; 1.6 reaches the eight nearest on a square grid
+  double skin = 0.38;     ///< reach added to neighbour rows so that they last, in grid spacings, (0, 2]
 };
 
 }  // namespace divot

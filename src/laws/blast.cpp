@@ -15,7 +15,7 @@ constexpr double kScaledHeight = 1.5;
 // Share of the height of burst that raises the virtual source: craters end at about 0.55 m/kg^(1/3) (an engineering guess).
 constexpr double kBurstShare = 0.81;
 // The paper's model: lowest virtual source, in crater widths. Sets how far out the sheet's edge (5 % of the depth) lies.
-constexpr double kPaperHeight = 0.25;
+constexpr double kPaperHeight = 0.265;
 // Mass of the paper's crater: 98 particles of 1 kg. Eq. 13 divides a pressure by a volume, so eq. 14 does not scale by itself.
 constexpr double kPaperMass = 98;
 

@@ -93,6 +93,7 @@ void rebuild(const state::Particles& p, state::Bonds& bonds, Index& index, const
 void form_and_break(const state::Particles& p, state::Bonds& bonds, float cutoff, const Jobs& jobs) {
   jobs.for_ranges(p.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      if (p.hold[i] == Hold::anchor) continue;  // nobody asks what an anchor feels
       for (std::uint32_t e = bonds.start[i]; e < bonds.start[i + 1]; ++e) {
         const std::uint32_t j = bonds.neighbour[e];
         const float r_squared = distance_squared(p, i, j);

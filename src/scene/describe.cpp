@@ -241,7 +241,7 @@ void describe_ground(Visitor& v, Material& m) {
       m.elastic_stiffness);
   v.number({.name = "ground_damping_ratio",
             .range = between(0, 100),
-            .meaning = "of the ground under a free particle; 1 is critical"},
+            .meaning = "of the ground under particles and bodies; 1 is critical"},
            m.ground_damping_ratio);
   v.number({.name = "cohesion", .unit = "Pa", .range = between(0, kHeavy), .meaning = "Mohr and Coulomb's c"},
            m.cohesion);
