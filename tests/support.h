@@ -76,7 +76,7 @@ inline Sheet make_sheet(const GridTerrain& grid, const std::vector<Material>& ma
     p.set_position(v, s.surface.position[v]);
     p.material[v] = s.surface.material[v];
     p.mass[v] = s.media[p.material[v]].areal_mass * s.soil.area[p.column[v]];
-    p.hold[v] = state::Hold::free;
+    p.hold[v] = Hold::free;
   }
   return s;
 }

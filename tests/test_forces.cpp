@@ -147,8 +147,8 @@ TEST(Forces, AnchorsFeelNothingAndTheCarriedOnlyRememberTheirPull) {
   Sheet s = shaken_sheet(9, false, 6);
   evaluate_sheet(s, Cohesion::lennard_jones);
   const double pull = pair_sum(s, 41, Cohesion::lennard_jones, two_soils(false)).z;
-  s.particles.hold[40] = state::Hold::anchor;
-  s.particles.hold[41] = state::Hold::carried;
+  s.particles.hold[40] = Hold::anchor;
+  s.particles.hold[41] = Hold::carried;
   evaluate_sheet(s, Cohesion::lennard_jones);
   EXPECT_EQ(length(force_on(s, 40)), 0);
   EXPECT_EQ(length(force_on(s, 41)), 0);
@@ -160,7 +160,7 @@ TEST(Forces, ABlastPushesItsColumnsWhileItsPulseLasts) {
   test::bond(s, kCutoff);
   state::Blast blast{.direction = {0, 0.6f, -0.8f}, .start = 1, .pulse = 0.5};
   blast.column = {40, 41, 42}, blast.push = {10, 20, 30};
-  s.particles.hold[42] = state::Hold::carried;
+  s.particles.hold[42] = Hold::carried;
   EXPECT_EQ(pulse_shape(blast, 1), 1);
   EXPECT_NEAR(pulse_shape(blast, 1.25), 0.5, 1e-6);
   EXPECT_EQ(pulse_shape(blast, 1.5), 0);
@@ -206,7 +206,7 @@ float rest_length_after(double strain) {
   soil.yield_strain = 0.02;
   Sheet s = test::make_sheet({.columns = 3, .rows = 3, .spacing = kSpacing}, {soil});
   test::bond(s, 1.2f * kSpacing);
-  s.particles.hold.assign(9, state::Hold::anchor);
+  s.particles.hold.assign(9, Hold::anchor);
   const float right = s.particles.x[5];
   s.particles.x[5] = right + static_cast<float>(strain) * kSpacing;
   yield(s.particles, s.bonds, s.soil, s.media, kFine, Jobs(1));
