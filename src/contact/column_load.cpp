@@ -8,7 +8,8 @@
 namespace divot::contact {
 namespace {
 
-// Flanks steeper than this push sideways no harder: at the equator of a ball the vertical columns would push infinitely.
+// Flanks steeper than this push sideways no harder: at the equator of a ball the vertical columns would push
+// infinitely.
 constexpr double kSteepestFlank = 0.25;  // |vertical part of the normal|
 
 // Speed along `direction` of the point of the body at `arm`.
@@ -17,7 +18,9 @@ Row row_of(const Vec3d& direction, const Vec3d& arm) {
   return {direction.x, direction.y, direction.z, turn.x, turn.y, turn.z};
 }
 
-double patch(const state::Body& body, const Situation& s) { return std::max<double>(body.patch_width, 0.5 * s.surface.spacing); }
+double patch(const state::Body& body, const Situation& s) {
+  return std::max<double>(body.patch_width, 0.5 * s.surface.spacing);
+}
 
 double underside_at(const Contact& c, double rising, double dt) { return c.underside + dt * (rising - c.rise_there); }
 
@@ -68,12 +71,14 @@ Push push_of(const state::Body& body, const Footing& f, const Contact& c, double
   if (height >= f.height) return {};
   const laws::Medium& medium = s.media[f.material];
   const auto pressure = pressure_of(body, f, f.fresh - height, s);
-  // The particle's own inertia and what cohesion does to it come on top of the soil's pressure. One that a body carries already
-  // moves with it; others are met at their own speed.
-  const Row now{body.velocity.x, body.velocity.y, body.velocity.z, body.angular_velocity.x, body.angular_velocity.y, body.angular_velocity.z};
+  // The particle's own inertia and what cohesion does to it come on top of the soil's pressure. One that a body carries
+  // already moves with it; others are met at their own speed.
+  const Row now{body.velocity.x,         body.velocity.y,         body.velocity.z,
+                body.angular_velocity.x, body.angular_velocity.y, body.angular_velocity.z};
   const double inertia = f.mass / s.dt, met = f.carried ? dot6(c.rise, now) : f.speed;
   Push push{pressure.value * f.area + f.pull + inertia * (met - rising), pressure.slope * f.area * s.dt + inertia};
-  // Soil that is being compressed radiates waves: without that, a ball set down gently would sink as if it were dropped.
+  // Soil that is being compressed radiates waves: without that, a ball set down gently would sink as if it were
+  // dropped.
   if (rising < 0 && medium.ground) {
     push.force -= medium.ground_damping * f.area * rising;
     push.per_speed += medium.ground_damping * f.area;
@@ -81,7 +86,8 @@ Push push_of(const state::Body& body, const Footing& f, const Contact& c, double
   return push.force > 0 ? push : Push{};  // soil does not pull
 }
 
-Shear shear_of(const laws::Medium& medium, const Footing& f, const Contact& c, const std::array<double, 2>& slip, double dt) {
+Shear shear_of(const laws::Medium& medium, const Footing& f, const Contact& c, const std::array<double, 2>& slip,
+               double dt) {
   const double j[2] = {dot(f.shear, c.tangent[0]) + dt * slip[0], dot(f.shear, c.tangent[1]) + dt * slip[1]};
   const double size = std::hypot(j[0], j[1]), most = laws::kSlideShear * medium.shear_modulus;
   Shear shear;

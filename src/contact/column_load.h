@@ -15,13 +15,15 @@ struct Push {
 };
 Push push_of(const state::Body& body, const Footing& f, const Contact& c, double rising, const Situation& s);
 
-/// A column's shear force along both tangents, against the slip, N; its slope, N/m, along the shear displacement and across it.
+/// A column's shear force along both tangents, against the slip, N; its slope, N/m, along the shear displacement and
+/// across it.
 struct Shear {
   double force[2] = {0, 0};
   double along[2] = {1, 0};  ///< unit, direction of the shear displacement
   double tangent = 0, secant = 0;
 };
-Shear shear_of(const laws::Medium& medium, const Footing& f, const Contact& c, const std::array<double, 2>& slip, double dt);
+Shear shear_of(const laws::Medium& medium, const Footing& f, const Contact& c, const std::array<double, 2>& slip,
+               double dt);
 
 /// Largest shear force at the footing's load, N: the soil's strength or the body's own friction.
 double grip_of(const state::Body& body, const Footing& f, const Contact& c, const Situation& s);

@@ -21,7 +21,8 @@ void meet_ground(state::Body& body, const Situation& s, Scratch::PerBody& scratc
 }
 
 bool pressed_before(const std::vector<Press>& last, std::uint32_t vertex) {
-  const auto at = std::lower_bound(last.begin(), last.end(), vertex, [](const Press& p, std::uint32_t v) { return p.vertex < v; });
+  const auto at =
+      std::lower_bound(last.begin(), last.end(), vertex, [](const Press& p, std::uint32_t v) { return p.vertex < v; });
   return at != last.end() && at->vertex == vertex;
 }
 
@@ -67,8 +68,8 @@ void press(const Press& press, state::Particles& p, state::Soil& soil, const sta
 
 }  // namespace
 
-void move_bodies(std::span<state::Body> bodies, RigidBodies& rigid, const Situation& s, std::vector<std::uint32_t>& wake,
-                 Scratch& scratch, const Jobs& jobs) {
+void move_bodies(std::span<state::Body> bodies, RigidBodies& rigid, const Situation& s,
+                 std::vector<std::uint32_t>& wake, Scratch& scratch, const Jobs& jobs) {
   scratch.bodies.resize(bodies.size());
   jobs.for_ranges(bodies.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) meet_ground(bodies[i], s, scratch.bodies[i]);

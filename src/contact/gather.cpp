@@ -53,12 +53,13 @@ Footing footing_at(std::uint32_t vertex, const Situation& s) {
 }
 
 const Press* find_press(const std::vector<Press>& last, std::uint32_t vertex) {
-  const auto at = std::lower_bound(last.begin(), last.end(), vertex, [](const Press& p, std::uint32_t v) { return p.vertex < v; });
+  const auto at =
+      std::lower_bound(last.begin(), last.end(), vertex, [](const Press& p, std::uint32_t v) { return p.vertex < v; });
   return at != last.end() && at->vertex == vertex ? &*at : nullptr;
 }
 
-// Vertices sample the ground too coarsely for a hard ball on hard ground: it would drop between them. The column nearest to the point
-// where the ball touches the slope is therefore met at that point instead of at its vertex.
+// Vertices sample the ground too coarsely for a hard ball on hard ground: it would drop between them. The column
+// nearest to the point where the ball touches the slope is therefore met at that point instead of at its vertex.
 void meet_at_lowest_point(const state::Body& body, const Situation& s, std::vector<Footing>& footings) {
   const Vec3d end = body.position + s.dt * body.velocity;
   const auto nearest_to = [&](double x, double y) {
@@ -79,8 +80,9 @@ void meet_at_lowest_point(const state::Body& body, const Situation& s, std::vect
   for (double* height : {&touched->height, &touched->fresh, &touched->original}) *height += touched->above_vertex;
 }
 
-// Ground that stands deeper than the pressure of the last step explains must not throw the body out. Where this body pressed it, the
-// rest is slack; where nothing did (a body born in the ground, a lip that rose under one), it counts as pressed for good.
+// Ground that stands deeper than the pressure of the last step explains must not throw the body out. Where this body
+// pressed it, the rest is slack; where nothing did (a body born in the ground, a lip that rose under one), it counts as
+// pressed for good.
 void take_up_slack(const state::Body& body, const Situation& s, const std::vector<Press>& last, Footing& f) {
   const Underside under = underside(body, body.position, f.x, f.y);
   if (!under.below || under.height >= f.height) return;
@@ -97,7 +99,8 @@ void take_up_slack(const state::Body& body, const Situation& s, const std::vecto
 
 }  // namespace
 
-void gather(const state::Body& body, const Situation& s, const std::vector<Press>& last, std::vector<Footing>& footings) {
+void gather(const state::Body& body, const Situation& s, const std::vector<Press>& last,
+            std::vector<Footing>& footings) {
   footings.clear();
   const double reach = step_reach(body, s);
   for (const std::uint32_t vertex : body.near)

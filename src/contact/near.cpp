@@ -26,9 +26,10 @@ std::uint32_t walk(const state::Body& body, const state::Surface& surface, std::
   return at;
 }
 
-// Every vertex within `reach` of the body's shadow that hangs together with `start` there, ascending. Ring by ring: what
-// a ring's neighbours meet again lies in that ring or the one before it.
-void flood(const state::Body& body, const state::Surface& surface, std::uint32_t start, double reach, Scratch::PerBody& scratch) {
+// Every vertex within `reach` of the body's shadow that hangs together with `start` there, ascending. Ring by ring:
+// what a ring's neighbours meet again lies in that ring or the one before it.
+void flood(const state::Body& body, const state::Surface& surface, std::uint32_t start, double reach,
+           Scratch::PerBody& scratch) {
   const double wide = (body.radius + reach) * (body.radius + reach);
   auto &found = scratch.found, &previous = scratch.previous, &ring = scratch.ring, &next = scratch.next;
   const auto has = [](const std::vector<std::uint32_t>& list, std::uint32_t u) {
@@ -53,7 +54,8 @@ void flood(const state::Body& body, const state::Surface& surface, std::uint32_t
   std::sort(found.begin(), found.end());
 }
 
-// A walk can be trusted where it ended under the body and the ground there hangs together: no hole or border cuts the shadow.
+// A walk can be trusted where it ended under the body and the ground there hangs together: no hole or border cuts the
+// shadow.
 bool shadow_is_whole(const state::Body& body, const state::Surface& surface, const std::vector<std::uint32_t>& found,
                      double reach) {
   const double edge = body.radius + reach;

@@ -15,7 +15,8 @@ Underside underside(const state::Body& body, const Vec3d& position, double x, do
 /// Could the body touch a vertex at `p` if both came nearer by `reach`, m?
 bool within_reach(const state::Body& body, const Vec3& p, double reach);
 
-/// How far a step reaches, m: what body and soil may travel in it, and the neighbour that the body's lowest point belongs to.
+/// How far a step reaches, m: what body and soil may travel in it, and the neighbour that the body's lowest point
+/// belongs to.
 double step_reach(const state::Body& body, const Situation& s);
 
 /// Brings body.near up to date: every vertex that the body can touch before body.near_left is used up.

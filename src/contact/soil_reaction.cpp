@@ -92,8 +92,8 @@ Row moved(const Row& v, const Row& direction, double share) {
   return out;
 }
 
-// Newton's method on a convex function: `missing` is its negative gradient, so a step that still goes downhill at its end is taken
-// whole, and one that overshoots is cut where the slope along it changes sign.
+// Newton's method on a convex function: `missing` is its negative gradient, so a step that still goes downhill at its
+// end is taken whole, and one that overshoots is cut where the slope along it changes sign.
 void find_balance(const Balance& balance, Row& v) {
   const double still = 1e-9 * balance.s.surface.spacing / balance.s.dt;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
@@ -118,10 +118,10 @@ void find_balance(const Balance& balance, Row& v) {
   }
 }
 
-// Newton's law of impact on top of the soil's plastic answer: once the soil has stopped the body, the share of the speed
-// of impact that restitution asks for comes back. Soil alone would return next to nothing.
-void rebound(state::Body& body, const std::vector<Footing>& footings, const std::vector<Contact>& contacts, const Row& v,
-             const Vec3d& before, const Situation& s) {
+// Newton's law of impact on top of the soil's plastic answer: once the soil has stopped the body, the share of the
+// speed of impact that restitution asks for comes back. Soil alone would return next to nothing.
+void rebound(state::Body& body, const std::vector<Footing>& footings, const std::vector<Contact>& contacts,
+             const Row& v, const Vec3d& before, const Situation& s) {
   body.velocity = {v[0], v[1], v[2]};
   body.angular_velocity = {v[3], v[4], v[5]};
   Vec3d sum;
@@ -156,7 +156,8 @@ void meet_soil(state::Body& body, std::vector<Footing>& footings, const Situatio
     // The first pass finds the load without friction; grip then comes from the load of the pass before.
     for (Contact& c : contacts) c.grip = grip_of(body, footings[c.footing], c, s);
     find_balance(balance, v);
-    for (Contact& c : contacts) footings[c.footing].load = push_of(body, footings[c.footing], c, dot6(c.rise, v), s).force;
+    for (Contact& c : contacts)
+      footings[c.footing].load = push_of(body, footings[c.footing], c, dot6(c.rise, v), s).force;
   }
   for (const Contact& c : contacts) footings[c.footing].answer = answer_of(body, footings[c.footing], c, v, s);
   rebound(body, footings, contacts, v, before, s);
@@ -174,8 +175,11 @@ void record_presses(state::Body& body, const std::vector<Footing>& footings, con
     if (!under.below || under.height >= f.height) continue;
     const Vec3d slid = f.answer.shear - f.shear;
     const Vec3 place = f.vertex_position + to_float({slid.x, slid.y, 0});
-    presses.push_back({f.vertex, {place.x, place.y, static_cast<float>(under.height - f.above_vertex)}, to_float(f.answer.shear),
-                       static_cast<float>(f.answer.plastic), static_cast<float>(f.answer.pressure)});
+    presses.push_back({f.vertex,
+                       {place.x, place.y, static_cast<float>(under.height - f.above_vertex)},
+                       to_float(f.answer.shear),
+                       static_cast<float>(f.answer.plastic),
+                       static_cast<float>(f.answer.pressure)});
     area += f.area;
     const double sunk = f.original - under.height;
     body.sinkage = std::max(body.sinkage, sunk);

@@ -16,8 +16,8 @@ float distance_squared(const state::Particles& p, std::size_t i, std::size_t j) 
   return (dx * dx + dy * dy) + dz * dz;
 }
 
-// Could two particles have come nearer to each other by more than the skin since the rows were built? Only motion against each
-// other counts: what all have in common, half the extent of their displacements, is taken off first.
+// Could two particles have come nearer to each other by more than the skin since the rows were built? Only motion
+// against each other counts: what all have in common, half the extent of their displacements, is taken off first.
 bool has_drifted(const state::Particles& p, const Index& index, float skin) {
   math::Aabb moved;
   for (std::size_t i = 0; i < p.size(); ++i) moved.include(p.position(i) - Vec3{index.x[i], index.y[i], index.z[i]});
@@ -27,9 +27,12 @@ bool has_drifted(const state::Particles& p, const Index& index, float skin) {
 bool is_due(const state::Particles& p, const Index& index, const Reach& reach, bool particles_changed) {
   if (particles_changed) return true;
   switch (reach.policy.kind) {
-    case UpdatePolicy::Kind::every_step: return true;
-    case UpdatePolicy::Kind::every: return index.steps_since_build >= static_cast<std::uint64_t>(reach.policy.steps);
-    case UpdatePolicy::Kind::adaptive: return has_drifted(p, index, reach.skin);
+    case UpdatePolicy::Kind::every_step:
+      return true;
+    case UpdatePolicy::Kind::every:
+      return index.steps_since_build >= static_cast<std::uint64_t>(reach.policy.steps);
+    case UpdatePolicy::Kind::adaptive:
+      return has_drifted(p, index, reach.skin);
   }
   return true;
 }
@@ -41,9 +44,10 @@ std::size_t old_row_of(const Index& index, std::uint32_t vertex) {
   return is_there ? static_cast<std::size_t>(found - index.old_vertex.begin()) : index.old_vertex.size();
 }
 
-// Rest lengths move from the old rows to the new ones, found by vertex: both ascend. Returns how many pairs are in range now
-// that the old rows should have held and did not, each counted once.
-std::uint64_t carry_rest_lengths(const state::Particles& p, const Index& index, state::Bonds& bonds, float cutoff, const Jobs& jobs) {
+// Rest lengths move from the old rows to the new ones, found by vertex: both ascend. Returns how many pairs are in
+// range now that the old rows should have held and did not, each counted once.
+std::uint64_t carry_rest_lengths(const state::Particles& p, const Index& index, state::Bonds& bonds, float cutoff,
+                                 const Jobs& jobs) {
   std::atomic<std::uint64_t> missed = 0;
   const bool same_rows = index.vertex == index.old_vertex;
   jobs.for_ranges(p.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -109,8 +113,8 @@ void form_and_break(const state::Particles& p, state::Bonds& bonds, float cutoff
 
 }  // namespace
 
-void update(const state::Particles& particles, state::Bonds& bonds, Index& index, const Reach& reach, bool particles_changed,
-            const Jobs& jobs) {
+void update(const state::Particles& particles, state::Bonds& bonds, Index& index, const Reach& reach,
+            bool particles_changed, const Jobs& jobs) {
   ++index.steps_since_build;
   if (is_due(particles, index, reach, particles_changed)) rebuild(particles, bonds, index, reach, jobs);
   form_and_break(particles, bonds, reach.cutoff, jobs);

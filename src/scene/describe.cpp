@@ -161,7 +161,9 @@ void describe_solver(Visitor& v, Settings& solver) {
            solver.integrator);
   v.choice({.name = "neighbours", .meaning = "search structure; both give the same rows"}, kNeighbours,
            solver.neighbours);
-  v.policy({.name = "neighbour_update", .meaning = "when neighbour rows are rebuilt; its steps are those of integration"}, solver.neighbour_update);
+  v.policy(
+      {.name = "neighbour_update", .meaning = "when neighbour rows are rebuilt; its steps are those of integration"},
+      solver.neighbour_update);
   v.policy({.name = "bvh_update", .meaning = "when the bounding volumes are brought up to date"}, solver.bvh_update);
   v.number({.name = "cutoff", .unit = "spacings", .range = between(1.1, 4), .meaning = "range of cohesion"},
            solver.cutoff);

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace divot::settle {
 namespace {
 
-// Moves the surface with its particles and counts for how long each has been still: by its speed, or because it has not come
-// further than that speed would bring it. Far from the origin a creep can be too slow for a float to take a step.
+// Moves the surface with its particles and counts for how long each has been still: by its speed, or because it has not
+// come further than that speed would bring it. Far from the origin a creep can be too slow for a float to take a step.
 void move_surface(state::Particles& p, state::Surface& surface, const Stillness& stillness, Moved& moved) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (p.hold[i] == Hold::anchor) continue;
@@ -25,8 +24,8 @@ void move_surface(state::Particles& p, state::Surface& surface, const Stillness&
 }
 
 // Soil that a blast drove down in this step: a share of it is thrown, the rest is compacted.
-double throw_soil(const state::Blast& blast, const state::Particles& p, const state::Surface& surface, state::Soil& soil,
-                  std::span<const laws::Medium> media) {
+double throw_soil(const state::Blast& blast, const state::Particles& p, const state::Surface& surface,
+                  state::Soil& soil, std::span<const laws::Medium> media) {
   double volume = 0;
   if (blast.landing.empty()) return volume;
   for (const std::uint32_t column : blast.column) {

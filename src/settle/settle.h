@@ -32,8 +32,8 @@ struct Stillness {
   std::uint16_t steps = 1;
 };
 
-/// Moves the surface with its particles. Those that go to sleep give up their elastic rest: where they are is where the ground
-/// now stands.
+/// Moves the surface with its particles. Those that go to sleep give up their elastic rest: where they are is where the
+/// ground now stands.
 void update(state::Particles& particles, state::Soil& soil, state::Surface& surface, std::vector<state::Blast>& blasts,
             std::span<const laws::Medium> media, const Stillness& stillness, double time, Moved& moved);
 
