@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "divot/errors.h"
@@ -99,6 +100,10 @@ class World {
 
   /// Heights on the grid the terrain came from, for rasters; nothing for terrain that came from a mesh. [O(vertices)]
   std::optional<RasterView> raster() const;
+
+  /// Boxes, least and greatest corner relative to the surface's origin, of one level of the bounding volume hierarchy over
+  /// the surface, the root's being 0: none below the deepest. For looking at. [O(triangles)]
+  std::vector<std::pair<Vec3, Vec3>> bvh_boxes(int level) const;
 
   std::size_t peak_particles() const;  ///< most particles awake at once so far
   std::vector<StageTime> stages() const;

@@ -27,6 +27,16 @@ math::Aabb Bvh::fresh_box(std::uint32_t node, std::span<const Vec3> positions) c
   return box;
 }
 
+std::vector<math::Aabb> Bvh::boxes(int level) const {
+  std::vector<int> depth(nodes_.size(), 0);
+  std::vector<math::Aabb> found;
+  for (std::size_t node = 0; node < nodes_.size(); ++node) {
+    if (parent_[node] != kNone) depth[node] = depth[parent_[node]] + 1;
+    if (depth[node] == level) found.push_back(nodes_[node].box);
+  }
+  return found;
+}
+
 bool Bvh::touch(std::uint32_t face, std::span<const Vec3> positions) {
   const std::uint32_t leaf = leaf_of_[face], node = leaf_node_[leaf];
   const auto slot = std::find(faces_.begin() + std::size_t{leaf} * kLeafFaces, faces_.end(), face) - faces_.begin();

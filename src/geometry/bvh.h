@@ -45,6 +45,9 @@ class Bvh {
   /// become slower.
   float degradation() const;
 
+  /// The boxes of the nodes at a level, the root's being 0: none below the deepest. [O(nodes)]
+  std::vector<math::Aabb> boxes(int level) const;
+
   /// Appends the faces whose leaf's box overlaps `box`: all that truly do and some nearby. What is appended is in
   /// ascending order, whatever the tree has been through. [O(log faces + found)]
   void query(const math::Aabb& box, std::vector<std::uint32_t>& faces) const;

@@ -75,6 +75,12 @@ std::optional<RasterView> World::raster() const {
   return output::resample(impl_->surface);
 }
 
+std::vector<std::pair<Vec3, Vec3>> World::bvh_boxes(int level) const {
+  std::vector<std::pair<Vec3, Vec3>> boxes;
+  for (const math::Aabb& box : impl_->tree.bvh.boxes(level)) boxes.emplace_back(box.low, box.high);
+  return boxes;
+}
+
 std::vector<StageTime> World::stages() const {
   std::vector<StageTime> rows;
   for (std::size_t i = 0; i < static_cast<std::size_t>(Stage::count); ++i)
