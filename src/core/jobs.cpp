@@ -6,17 +6,14 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <algorithm>
 
 namespace divot {
 
 struct Jobs::Arena {
-  explicit Arena(int threads)
-      : limit(tbb::global_control::max_allowed_parallelism,
-              std::max<std::size_t>(static_cast<std::size_t>(threads), tbb::info::default_concurrency())),
-        arena(threads) {}
-  // More threads than cores are allowed, and oneTBB does not complain about them.
-  tbb::global_control limit;
+  explicit Arena(int threads) : arena(threads) {}
+  // More threads than cores are allowed, and oneTBB does not complain about them. The least limit that is alive counts, so
+  // that all have to be the same.
+  tbb::global_control limit{tbb::global_control::max_allowed_parallelism, 1024};
   mutable tbb::task_arena arena;
 };
 
