@@ -101,8 +101,8 @@ class World {
   /// Heights on the grid the terrain came from, for rasters; nothing for terrain that came from a mesh. [O(vertices)]
   std::optional<RasterView> raster() const;
 
-  /// Boxes, least and greatest corner relative to the surface's origin, of one level of the bounding volume hierarchy over
-  /// the surface, the root's being 0: none below the deepest. For looking at. [O(triangles)]
+  /// Boxes, least and greatest corner relative to the surface's origin, of one level of the bounding volume hierarchy
+  /// over the surface, the root's being 0: none below the deepest. For looking at. [O(triangles)]
   std::vector<std::pair<Vec3, Vec3>> bvh_boxes(int level) const;
 
   std::size_t peak_particles() const;  ///< most particles awake at once so far

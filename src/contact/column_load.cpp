@@ -12,8 +12,8 @@ namespace {
 // infinitely.
 constexpr double kSteepestFlank = 0.25;  // |vertical part of the normal|
 
-// Damping answers a body with at most this many times the soil's static pressure. Twice lets a ball that is set down stop where it
-// is carried, to a few percent, and a falling one go as deep as energy over strength says, H^(1/(n+2)).
+// Damping answers a body with at most this many times the soil's static pressure. Twice lets a ball that is set down
+// stop where it is carried, to a few percent, and a falling one go as deep as energy over strength says, H^(1/(n+2)).
 constexpr double kMostDamping = 2;
 
 // Speed along `direction` of the point of the body at `arm`.
@@ -81,8 +81,8 @@ Push push_of(const state::Body& body, const Footing& f, const Contact& c, double
                 body.angular_velocity.x, body.angular_velocity.y, body.angular_velocity.z};
   const double inertia = f.mass / s.dt, met = f.carried ? dot6(c.rise, now) : f.speed;
   Push push{pressure.value * f.area + f.pull + inertia * (met - rising), pressure.slope * f.area * s.dt + inertia};
-  // Soil that is being compressed radiates waves: without that, a ball set down gently would sink as if it were dropped. Waves
-  // carry no more than the soil's strength allows.
+  // Soil that is being compressed radiates waves: without that, a ball set down gently would sink as if it were
+  // dropped. Waves carry no more than the soil's strength allows.
   if (rising < 0 && medium.ground) {
     const double damping = -medium.ground_damping * rising, most = kMostDamping * pressure.value;
     push.force += std::min(damping, most) * f.area;

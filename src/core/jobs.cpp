@@ -6,13 +6,12 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-
 namespace divot {
 
 struct Jobs::Arena {
   explicit Arena(int threads) : arena(threads) {}
-  // More threads than cores are allowed, and oneTBB does not complain about them. The least limit that is alive counts, so
-  // that all have to be the same.
+  // More threads than cores are allowed, and oneTBB does not complain about them. The least limit that is alive counts,
+  // so that all have to be the same.
   tbb::global_control limit{tbb::global_control::max_allowed_parallelism, 1024};
   mutable tbb::task_arena arena;
 };

@@ -57,8 +57,8 @@ std::optional<double> resting_height(const World::Impl& w, double x, double y, d
 
 Result<Vec3d> place_body(const World::Impl& w, const BodySettings& body) {
   const Vec3d local = body.position - w.surface.origin;
-  const state::SurfacePoint ground = state::surface_at(w.surface, w.tree.bvh, static_cast<float>(local.x), static_cast<float>(local.y),
-                                                       w.region_scratch);
+  const state::SurfacePoint ground = state::surface_at(w.surface, w.tree.bvh, static_cast<float>(local.x),
+                                                       static_cast<float>(local.y), w.region_scratch);
   if (!body.above_ground && ground.found && local.z < ground.position.z)
     return fail({.key = fmt::format("bodies.{}.position", body.name),
                  .problem = fmt::format("its centre lies {:.3g} m below the ground", ground.position.z - local.z),
