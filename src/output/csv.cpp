@@ -4,6 +4,8 @@
 
 #include <iterator>
 
+#include "core/assert.h"
+
 namespace divot::output {
 namespace {
 
@@ -32,6 +34,24 @@ void BodiesCsv::append(double time, std::span<const BodyView> bodies) {
                    b.orientation.y, b.orientation.z, b.orientation.w, b.sinkage);
   }
   file_.write(rows.data(), rows.size());
+}
+
+Result<void> write_surface_csv(const std::string& path, const SurfaceView& surface, std::span<const float> sinkage) {
+  DIVOT_ASSERT(sinkage.size() == surface.positions.size() && surface.materials.size() == surface.positions.size());
+  constexpr std::size_t kFull = 1 << 20;
+  auto file = AtomicFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  file->write("x,y,z,sinkage,material\n");
+  fmt::memory_buffer rows;
+  for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+    const Vec3d p = to_double(surface.positions[v]) + surface.origin;
+    fmt::format_to(std::back_inserter(rows), "{},{},{},{},{}\n", p.x, p.y, p.z, sinkage[v], surface.materials[v]);
+    if (rows.size() < kFull) continue;
+    file->write(rows.data(), rows.size());
+    rows.clear();
+  }
+  file->write(rows.data(), rows.size());
+  return file->commit();
 }
 
 }  // namespace divot::output

@@ -28,4 +28,8 @@ class BodiesCsv {
   AtomicFile file_;
 };
 
+/// Writes the ground as CSV, one row for each vertex in the order of ids: x, y, z (m, in the terrain's coordinates),
+/// sinkage (m) and material. `sinkage`: [vertex] m. Fails with the system's reason. [O(vertices)]
+Result<void> write_surface_csv(const std::string& path, const SurfaceView& surface, std::span<const float> sinkage);
+
 }  // namespace divot::output

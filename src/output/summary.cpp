@@ -64,13 +64,14 @@ Json volume(const SoilVolume& soil) {
 
 }  // namespace
 
-Json summary(const World& world, double wall_s) {
+Json summary(const World& world, const RunTotals& totals) {
   const SurfaceView surface = world.surface();
   return {{"scene", world.scene().name},
           {"simulated_s", world.time()},
           {"steps", world.steps()},
-          {"wall_s", wall_s},
-          {"real_time_factor", wall_s > 0 ? world.time() / wall_s : 0.0},
+          {"wall_s", totals.wall_s},
+          {"real_time_factor", totals.wall_s > 0 ? world.time() / totals.wall_s : 0.0},
+          {"interrupted", totals.interrupted},
           {"terrain", {{"vertices", surface.positions.size()}, {"triangles", surface.triangles.size() / 3}}},
           {"particles", {{"peak", world.peak_particles()}, {"final", world.particles().vertices.size()}}},
           {"bodies", bodies(world)},
@@ -78,6 +79,7 @@ Json summary(const World& world, double wall_s) {
           {"stages", stages(world)},
           {"updates", updates(world.updates())},
           {"volume", volume(world.soil_volume())},
+          {"flags", {{"substeps_limited", totals.substeps_limited}, {"not_finite", totals.not_finite}}},
           {"state_hash", fmt::format("{:016x}", world.state_hash())}};
 }
 

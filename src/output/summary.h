@@ -2,11 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "divot/output.h"
 #include "divot/world.h"
 
 namespace divot::output {
 
-/// What `summary.json` holds: the run in numbers. `wall_s` is the time it took, s.
-nlohmann::ordered_json summary(const World& world, double wall_s);
+/// What `summary.json` holds: the run in numbers.
+nlohmann::ordered_json summary(const World& world, const RunTotals& totals);
 
 }  // namespace divot::output

@@ -1,0 +1,140 @@
+#include "cli/options.h"
+
+#include <fmt/format.h>
+
+// The only file that includes it: it takes seconds to compile.
+#include <CLI/CLI.hpp>
+
+namespace divot::cli {
+namespace {
+
+constexpr int kMostThreads = 1024;
+
+constexpr const char* kFooter =
+    "Exit status: 0 done, 1 the run failed, 2 bad usage or bad input.\n"
+    "divot COMMAND --help says more of a command.";
+
+// `bodies.0.mass=500` in two. The value may hold `=` itself.
+Override split_override(const std::string& text) {
+  const std::size_t at = text.find('=');
+  if (at == std::string::npos || at == 0)
+    throw CLI::ValidationError("--set", fmt::format("\"{}\" is not key=value, as in solver.blast=paper", text));
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+void add_scene(CLI::App& command, SceneOptions& scene) {
+  command.add_option("SCENE", scene.path, "scene file (TOML)")->required()->type_name("");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [&scene](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) scene.overrides.push_back(split_override(text));
+          },
+          "change a key of the scene, as bodies.0.mass=500; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+}
+
+void add_threads(CLI::App& command, SceneOptions& scene) {
+  command.add_option("--threads", scene.threads, "worker threads; results do not depend on it (default: all cores)")
+      ->check(CLI::Range(1, kMostThreads).description(""))
+      ->type_name("N");
+}
+
+CLI::Option* add_out(CLI::App& command, std::string& out, const char* what) {
+  return command.add_option("--out", out, what)->type_name("DIR");
+}
+
+void add_run(CLI::App& app, RunOptions& options) {
+  CLI::App& command = *app.add_subcommand("run", "Simulate a scene and write what came of it");
+  add_scene(command, options.scene);
+  add_out(command, options.out, "folder for results (default: out/NAME)");
+  command.add_option("--duration", options.scene.duration, "simulated time instead of the scene's, s")->type_name("S");
+  add_threads(command, options.scene);
+  command.add_flag("--quiet", options.quiet, "print nothing but errors");
+}
+
+void add_check(CLI::App& app, CheckOptions& options) {
+  CLI::App& command = *app.add_subcommand("check", "Read a scene and its files, and say everything that is wrong");
+  add_scene(command, options.scene);
+}
+
+void add_materials(CLI::App& app, MaterialsOptions& options) {
+  CLI::App& command = *app.add_subcommand("materials", "List the soils that scenes can build on");
+  command.add_flag("--json", options.json, "as JSON");
+}
+
+void read_size(const std::string& text, RenderOptions& options) {
+  const std::size_t at = text.find('x');
+  const bool read = at != std::string::npos && CLI::detail::lexical_cast(text.substr(0, at), options.width) &&
+                    CLI::detail::lexical_cast(text.substr(at + 1), options.height);
+  if (!read) throw CLI::ValidationError("--size", fmt::format("\"{}\" is not WIDTHxHEIGHT, as in 1280x720", text));
+}
+
+void add_render(CLI::App& app, RenderOptions& options) {
+  CLI::App& command = *app.add_subcommand("render", "Simulate a scene and draw it, without a display");
+  add_scene(command, options.scene);
+  add_out(command, options.out, "folder for pictures (default: out/NAME)");
+  command.add_option("--at", options.at, "simulated times, s, as 0,1.5,3 (default: five from start to end)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("S,...");
+  command
+      .add_option_function<std::string>(
+          "--size", [&options](const std::string& text) { read_size(text, options); }, "pixels (default: 1280x720)")
+      ->type_name("WIDTHxHEIGHT");
+  command.add_flag("--wireframe", options.wireframe, "hidden lines instead of lit ground");
+  command.add_flag("--sheet", options.sheet, "also all pictures on one sheet, each with its time");
+  add_threads(command, options.scene);
+}
+
+void add_bench(CLI::App& app, BenchOptions& options) {
+  CLI::App& command = *app.add_subcommand("bench", "Measure how long the parts of a step take");
+  command.add_option("NAME", options.names, "benchmarks (default: all)")->type_name("");
+  command.add_option("--json", options.json, "file for the numbers")->type_name("FILE");
+  add_out(command, options.out, "folder for plots (default: out/bench)");
+  command.add_option("--scenes", options.scenes, "folder of the scene files")->type_name("DIR");
+}
+
+// CLI11 says "--duration: 1 required TEXT missing" and the like; ours ends with where to find help.
+int complain(const CLI::App& app, const CLI::ParseError& error) {
+  std::string command = "divot";
+  for (const CLI::App* used : app.get_subcommands()) command += " " + used->get_name();
+  fmt::print(stderr, "{}: {} (see {} --help)\n", command, error.what(), command);
+  return kBadInput;
+}
+
+}  // namespace
+
+tl::expected<Command, int> parse(int argc, char** argv) {
+  CLI::App app("divot deforms terrain physically: what rolls over it leaves ruts, bombs leave craters.", "divot");
+  app.footer(kFooter);
+  app.set_version_flag("--version", "divot " DIVOT_VERSION);
+  app.require_subcommand(0, 1);
+  RunOptions run;
+  CheckOptions check;
+  MaterialsOptions materials;
+  RenderOptions render;
+  BenchOptions bench;
+  add_run(app, run);
+  add_check(app, check);
+  add_materials(app, materials);
+  add_render(app, render);
+  add_bench(app, bench);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    return tl::unexpected(app.exit(help_or_version));
+  } catch (const CLI::ParseError& error) {
+    return tl::unexpected(complain(app, error));
+  }
+  if (app.got_subcommand("run")) return run;
+  if (app.got_subcommand("check")) return check;
+  if (app.got_subcommand("materials")) return materials;
+  if (app.got_subcommand("render")) return render;
+  if (app.got_subcommand("bench")) return bench;
+  fmt::print(stderr, "{}", app.help());
+  return tl::unexpected(kBadInput);
+}
+
+}  // namespace divot::cli

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <tl/expected.hpp>
+#include <variant>
+#include <vector>
+
+#include "divot/scene.h"
+
+namespace divot::cli {
+
+/// Exit status of the program.
+inline constexpr int kDone = 0, kFailed = 1, kBadInput = 2;
+
+/// A scene file and how it is changed from the command line.
+struct SceneOptions {
+  std::string path;
+  std::vector<Override> overrides;  ///< of --set, in order
+  std::string duration;             ///< of --duration, as it was typed; empty: the scene's
+  int threads = 0;                  ///< 0: one for each core
+};
+
+struct RunOptions {
+  SceneOptions scene;
+  std::string out;  ///< folder for results; empty: out/NAME
+  bool quiet = false;
+};
+
+struct CheckOptions {
+  SceneOptions scene;
+};
+
+struct MaterialsOptions {
+  bool json = false;
+};
+
+struct RenderOptions {
+  SceneOptions scene;
+  std::string out;         ///< folder for pictures; empty: out/NAME
+  std::vector<double> at;  ///< s; empty: the start and four times evenly spaced to the end
+  int width = 1280, height = 720;
+  bool wireframe = false;
+  bool sheet = false;  ///< also all pictures on one sheet, each with its time
+};
+
+struct BenchOptions {
+  std::vector<std::string> names;  ///< empty: all
+  std::string json;                ///< file for results; empty: none
+  std::string out;                 ///< folder for plots
+  std::string scenes;              ///< folder of the scene files
+};
+
+/// What the command line asks for.
+using Command = std::variant<RunOptions, CheckOptions, MaterialsOptions, RenderOptions, BenchOptions>;
+
+/// Reads the command line. When there is nothing left to do (help, version, bad usage) it has said so and the error is
+/// the exit status.
+tl::expected<Command, int> parse(int argc, char** argv);
+
+}  // namespace divot::cli

@@ -1,0 +1,12 @@
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+
+namespace divot::cli {
+
+int render(const RenderOptions&) {
+  fmt::print(stderr, "divot render: this build has no renderer; configure it with -DDIVOT_VIEWER=ON\n");
+  return kBadInput;
+}
+
+}  // namespace divot::cli

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cli/plot.h"
+#include "divot/errors.h"
+#include "divot/world.h"
+
+namespace divot::bench {
+
+/// What a benchmark measured of one way to run one scene. Times are medians over repeats.
+struct Measurement {
+  std::string name;  ///< `figure1/adaptive`
+  std::size_t particles = 0;
+  int threads = 1;
+  double ms_per_step = 0, ns_per_particle_step = 0;
+  double real_time_factor = 0;    ///< simulated / wall
+  std::vector<StageTime> stages;  ///< of the whole run
+  UpdateCounts updates;
+  std::uint64_t state_hash = 0;
+};
+
+/// What a benchmark hands back.
+struct Report {
+  std::string text;  ///< tables for people
+  std::vector<Measurement> results;
+  std::vector<cli::BarChart> charts;
+};
+
+/// A benchmark by name. `run` fails when its scene cannot be used, or when what it measured is not what it claims to
+/// measure.
+struct Bench {
+  const char* name;
+  const char* what;
+  Result<Report> (*run)(const std::string& scenes);
+};
+
+/// Every benchmark.
+std::span<const Bench> benches();
+
+/// The paper's Figure 1: the parts of a second of simulation with 98 particles, by how often structures are brought up
+/// to date.
+Result<Report> figure1(const std::string& scenes);
+
+}  // namespace divot::bench
