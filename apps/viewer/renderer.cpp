@@ -2,38 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <osgViewer/Viewer>
 
 #include "viewer/caption.h"
 #include "viewer/failure.h"
 #include "viewer/offscreen_context.h"
+#include "viewer/pixel_reader.h"
 #include "viewer/scene_graph.h"
 
 namespace divot::viewer {
 namespace {
 
 constexpr int kLeastSize = 16, kLargestSize = 16384;
-
-// Fetches the finished frame. OpenGL's first row is the lowest.
-struct PixelReader : osg::Camera::DrawCallback {
-  mutable Image image;
-
-  void operator()(osg::RenderInfo& info) const override {
-    const osg::Viewport& view = *info.getCurrentCamera()->getViewport();
-    image.width = static_cast<int>(view.width());
-    image.height = static_cast<int>(view.height());
-    const std::size_t stride = 3 * static_cast<std::size_t>(image.width);
-    image.rgb.resize(stride * static_cast<std::size_t>(image.height));
-    glReadBuffer(GL_BACK);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, image.width, image.height, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
-    auto top = image.rgb.begin(), bottom = image.rgb.end() - static_cast<std::ptrdiff_t>(stride);
-    for (; top < bottom; top += static_cast<std::ptrdiff_t>(stride), bottom -= static_cast<std::ptrdiff_t>(stride)) {
-      std::swap_ranges(top, top + static_cast<std::ptrdiff_t>(stride), bottom);
-    }
-  }
-};
 
 Result<void> check(const RenderOptions& options) {
   const auto is_size = [](int size) { return size >= kLeastSize && size <= kLargestSize; };
@@ -52,7 +32,10 @@ Result<void> check(const RenderOptions& options) {
 struct Renderer::Impl {
   Impl(const RenderOptions& asked, OffscreenContext&& gl);
   ~Impl();
-  void place_camera(const SurfaceView& surface, std::span<const BodyView> bodies, std::span<const BombView> bombs);
+  void update(const Snapshot& snapshot);
+  void place_camera(const Snapshot& snapshot);
+  void follow(const Snapshot& snapshot);
+  void look_through(const Vec3d& origin);
 
   RenderOptions options;
   OffscreenContext context;
@@ -61,13 +44,15 @@ struct Renderer::Impl {
   osg::ref_ptr<PixelReader> reader = new PixelReader;
   osg::ref_ptr<osgViewer::Viewer> viewer = new osgViewer::Viewer;
   Camera camera;
+  std::optional<Vec3d> followed;  // where the followed body was at the last update()
   bool placed = false;
 };
 
 Renderer::Impl::Impl(const RenderOptions& asked, OffscreenContext&& gl)
     : options(asked),
       context(std::move(gl)),
-      scene({.azimuth_deg = asked.sun_azimuth_deg, .elevation_deg = asked.sun_elevation_deg}, asked.wireframe),
+      scene({.azimuth_deg = asked.sun_azimuth_deg, .elevation_deg = asked.sun_elevation_deg},
+            {.wireframe = asked.wireframe, .color = asked.color, .quality = asked.quality, .effects = asked.effects}),
       caption(asked.width, asked.height, asked.wireframe) {
   viewer->setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
   viewer->setUpViewerAsEmbeddedInWindow(0, 0, options.width, options.height);
@@ -88,17 +73,39 @@ Renderer::Impl::~Impl() {
   if (context.make_current()) viewer = nullptr;
 }
 
-void Renderer::Impl::place_camera(const SurfaceView& surface, std::span<const BodyView> bodies,
-                                  std::span<const BombView> bombs) {
+void Renderer::Impl::update(const Snapshot& snapshot) {
+  if (!placed) place_camera(snapshot);
+  follow(snapshot);
+  scene.update(snapshot);
+  caption.set_text(fmt::format("t = {:.2f} s", snapshot.time));
+}
+
+void Renderer::Impl::place_camera(const Snapshot& snapshot) {
   const double aspect = static_cast<double>(options.width) / options.height;
-  const Framing framing = frame(surface, bodies, bombs, aspect);
+  const Framing framing = frame(snapshot.surface, snapshot.bodies, snapshot.bombs, aspect);
   camera = options.camera.value_or(framing.camera);
-  scene.set_view(surface.origin, framing.region, camera);
-  const Vec3d eye = camera.eye - surface.origin, target = camera.target - surface.origin;
-  viewer->getCamera()->setViewMatrixAsLookAt({eye.x, eye.y, eye.z}, {target.x, target.y, target.z}, {0, 0, 1});
+  scene.set_view(snapshot.surface.origin, framing.region, camera);
+  look_through(snapshot.surface.origin);
   // Near and far follow from what is drawn.
   viewer->getCamera()->setProjectionMatrixAsPerspective(camera.fov_deg, aspect, 1, 1000);
   placed = true;
+}
+
+// Eye and target move as the body did.
+void Renderer::Impl::follow(const Snapshot& snapshot) {
+  if (!options.follow || options.follow->value >= snapshot.bodies.size()) return;
+  const Vec3d now = snapshot.bodies[options.follow->value].position;
+  const Vec3d moved = now - followed.value_or(now);
+  followed = now;
+  camera.eye += moved;
+  camera.target += moved;
+  look_through(snapshot.surface.origin);
+}
+
+void Renderer::Impl::look_through(const Vec3d& origin) {
+  const Vec3d eye = camera.eye - origin, target = camera.target - origin;
+  viewer->getCamera()->setViewMatrixAsLookAt({eye.x, eye.y, eye.z}, {target.x, target.y, target.z}, {0, 0, 1});
+  scene.set_eye({eye.x, eye.y, eye.z});
 }
 
 Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -115,15 +122,20 @@ Result<Renderer> Renderer::create(const RenderOptions& options) {
 void Renderer::update(const SurfaceView& surface, std::span<const DirtyRange> dirty, std::span<const BodyView> bodies,
                       std::span<const BombView> bombs, const std::function<float(std::uint32_t)>& sinkage,
                       double time) {
-  if (!impl_->placed) impl_->place_camera(surface, bodies, bombs);
-  impl_->scene.update(surface, dirty, bodies, bombs, sinkage);
-  impl_->caption.set_text(fmt::format("t = {:.2f} s", time));
+  impl_->update({.surface = surface,
+                 .dirty = {dirty.begin(), dirty.end()},
+                 .bodies = {bodies.begin(), bodies.end()},
+                 .bombs = {bombs.begin(), bombs.end()},
+                 .sinkage = sinkage,
+                 .time = time});
 }
+
+void Renderer::update(World& world) { impl_->update(take_snapshot(world)); }
 
 Result<Image> Renderer::pixels() {
   return impl_->context.make_current().map([&] {
     impl_->viewer->frame();
-    return impl_->reader->image;
+    return impl_->reader->image();
   });
 }
 

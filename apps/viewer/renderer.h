@@ -8,18 +8,28 @@
 #include <string>
 
 #include "divot/errors.h"
+#include "divot/ids.h"
 #include "divot/views.h"
 #include "viewer/camera.h"
 #include "viewer/image.h"
+#include "viewer/look.h"
+
+namespace divot {
+class World;
+}
 
 namespace divot::viewer {
 
 /// What a picture is to look like.
 struct RenderOptions {
-  int width = 1280, height = 720;     ///< pixels, [16, 16384]
-  bool wireframe = false;             ///< hidden-line drawing instead of lit ground
+  int width = 1280, height = 720;    ///< pixels, [16, 16384]
+  bool wireframe = false;            ///< hidden-line drawing instead of lit ground
+  ColorBy color = ColorBy::natural;  ///< what the ground's colours tell
+  Quality quality = Quality::fine;
+  bool effects = false;               ///< flash and dust of explosions
   bool show_time = false;             ///< simulated time in the lower left corner
   std::optional<Camera> camera = {};  ///< empty: frames what the first update() shows, see frame()
+  std::optional<BodyId> follow = {};  ///< the camera keeps its distance to this body; nothing where there is none such
   double sun_azimuth_deg = 68;        ///< degrees clockwise from north (y)
   double sun_elevation_deg = 29;      ///< degrees above the horizon, (0, 90]
 };
@@ -42,13 +52,17 @@ class Renderer {
   void update(const SurfaceView& surface, std::span<const DirtyRange> dirty, std::span<const BodyView> bodies,
               std::span<const BombView> bombs, const std::function<float(std::uint32_t vertex)>& sinkage, double time);
 
+  /// The same for a world, with the particles that ColorBy::awake shows; takes its dirty ranges.
+  void update(World& world);
+
   /// Draws the last update(); only background before there was one. Fails when the driver lost its context.
   Result<Image> pixels();
 
   /// Draws the last update() into a PNG file, see write_png(const Image&, ...).
   Result<void> write_png(const std::string& path);
 
-  /// Where pictures are taken from: as asked for, or as the first update() framed it.
+  /// Where pictures are taken from: as asked for, or as the first update() framed it, moved along with what is
+  /// followed.
   const Camera& camera() const;
 
  private:

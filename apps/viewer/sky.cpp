@@ -29,8 +29,9 @@ osg::ref_ptr<osg::Geometry> make_background(const osg::Vec3& top, const osg::Vec
 
   osg::StateSet* state = quad->getOrCreateStateSet();
   state->setAttributeAndModes(background_program());
-  state->setAttributeAndModes(new osg::Depth(osg::Depth::ALWAYS, 0, 1, false));
-  state->setRenderBinDetails(-10, "RenderBin");
+  // After what is solid, so that only the pixels that show it are coloured; before what is transparent.
+  state->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0, 1, false));
+  state->setRenderBinDetails(5, "RenderBin");
   state->addUniform(new osg::Uniform("background_top", top));
   state->addUniform(new osg::Uniform("background_bottom", bottom));
   return quad;

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <osg/Group>
+
+#include "viewer/lighting.h"
+#include "viewer/look.h"
+
+namespace divot::viewer {
+
+/// What is drawn, before it is decided how.
+struct Subjects {
+  osg::Group& ground;
+  osg::Group& walls;
+  osg::Group& bodies;
+  osg::Group& bombs;
+};
+
+/// The world in sunlight, before a sky.
+class LitView {
+ public:
+  LitView(const Subjects& subjects, const Sun& sun, Quality quality);
+
+  osg::Group& root() { return *root_; }
+  Lighting& lighting() { return lighting_; }
+
+ private:
+  osg::ref_ptr<osg::Group> root_;
+  Lighting lighting_;
+};
+
+}  // namespace divot::viewer
