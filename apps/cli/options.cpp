@@ -64,11 +64,19 @@ void add_materials(CLI::App& app, MaterialsOptions& options) {
   command.add_flag("--json", options.json, "as JSON");
 }
 
-void read_size(const std::string& text, RenderOptions& options) {
+void read_size(const std::string& text, int& width, int& height) {
   const std::size_t at = text.find('x');
-  const bool read = at != std::string::npos && CLI::detail::lexical_cast(text.substr(0, at), options.width) &&
-                    CLI::detail::lexical_cast(text.substr(at + 1), options.height);
+  const bool read = at != std::string::npos && CLI::detail::lexical_cast(text.substr(0, at), width) &&
+                    CLI::detail::lexical_cast(text.substr(at + 1), height);
   if (!read) throw CLI::ValidationError("--size", fmt::format("\"{}\" is not WIDTHxHEIGHT, as in 1280x720", text));
+}
+
+void add_size(CLI::App& command, int& width, int& height) {
+  command
+      .add_option_function<std::string>(
+          "--size", [&width, &height](const std::string& text) { read_size(text, width, height); },
+          "pixels (default: 1280x720)")
+      ->type_name("WIDTHxHEIGHT");
 }
 
 void add_render(CLI::App& app, RenderOptions& options) {
@@ -79,12 +87,19 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("S,...");
-  command
-      .add_option_function<std::string>(
-          "--size", [&options](const std::string& text) { read_size(text, options); }, "pixels (default: 1280x720)")
-      ->type_name("WIDTHxHEIGHT");
+  add_size(command, options.width, options.height);
   command.add_flag("--wireframe", options.wireframe, "hidden lines instead of lit ground");
   command.add_flag("--sheet", options.sheet, "also all pictures on one sheet, each with its time");
+  add_threads(command, options.scene);
+}
+
+void add_view(CLI::App& app, ViewOptions& options) {
+  CLI::App& command = *app.add_subcommand("view", "Run a scene live in a window; h shows what keys and mouse do");
+  add_scene(command, options.scene);
+  add_size(command, options.width, options.height);
+  command.add_option("--quality", options.quality, "fast, fine or auto: as fine as the machine can (default: auto)")
+      ->check(CLI::IsMember({"auto", "fast", "fine"}).description(""))
+      ->type_name("NAME");
   add_threads(command, options.scene);
 }
 
@@ -115,11 +130,13 @@ tl::expected<Command, int> parse(int argc, char** argv) {
   CheckOptions check;
   MaterialsOptions materials;
   RenderOptions render;
+  ViewOptions view;
   BenchOptions bench;
   add_run(app, run);
   add_check(app, check);
   add_materials(app, materials);
   add_render(app, render);
+  add_view(app, view);
   add_bench(app, bench);
   try {
     app.parse(argc, argv);
@@ -132,6 +149,7 @@ tl::expected<Command, int> parse(int argc, char** argv) {
   if (app.got_subcommand("check")) return check;
   if (app.got_subcommand("materials")) return materials;
   if (app.got_subcommand("render")) return render;
+  if (app.got_subcommand("view")) return view;
   if (app.got_subcommand("bench")) return bench;
   fmt::print(stderr, "{}", app.help());
   return tl::unexpected(kBadInput);

@@ -43,6 +43,12 @@ struct RenderOptions {
   bool sheet = false;  ///< also all pictures on one sheet, each with its time
 };
 
+struct ViewOptions {
+  SceneOptions scene;
+  int width = 1280, height = 720;  ///< of the window, pixels
+  std::string quality = "auto";    ///< auto, fast or fine
+};
+
 struct BenchOptions {
   std::vector<std::string> names;  ///< empty: all
   std::string json;                ///< file for results; empty: none
@@ -51,7 +57,7 @@ struct BenchOptions {
 };
 
 /// What the command line asks for.
-using Command = std::variant<RunOptions, CheckOptions, MaterialsOptions, RenderOptions, BenchOptions>;
+using Command = std::variant<RunOptions, CheckOptions, MaterialsOptions, RenderOptions, ViewOptions, BenchOptions>;
 
 /// Reads the command line. When there is nothing left to do (help, version, bad usage) it has said so and the error is
 /// the exit status.

@@ -92,7 +92,7 @@ void ExplosionNode::add_flash(const osg::Vec3& at, float reach, float age) {
 
 // A stem that rises and slows down, and a ring that runs outward along the ground.
 void ExplosionNode::add_dust(const osg::Vec3& at, float reach, float age, std::uint32_t seed) {
-  const float spread = 1 - std::exp(-age / 0.6f), left = 1 - age / static_cast<float>(kLife);
+  const float spread = 1 - std::exp(-age / 0.25f), left = 1 - age / static_cast<float>(kLife);
   for (std::uint32_t i = 0; i < kDust; ++i) {
     const bool stem = i % 5 < 3;
     const float size = mix(0.7f, 1.3f, chance(seed, i, 0)), high = chance(seed, i, 1), out = chance(seed, i, 2);

@@ -17,6 +17,9 @@ inline constexpr std::array<std::string_view, 6> kColorByNames = {"natural", "he
 /// shadows of the ground and analytic ones of balls.
 enum class Quality : std::uint8_t { fast, fine };
 
+/// Samples of a pixel, which smooth edges.
+constexpr int samples_of(Quality quality) { return quality == Quality::fine ? 4 : 0; }
+
 /// How a world is drawn. All of it can change from picture to picture.
 struct Look {
   bool wireframe = false;  ///< hidden-line drawing instead of lit ground

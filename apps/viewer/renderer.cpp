@@ -115,7 +115,7 @@ Renderer::~Renderer() = default;
 
 Result<Renderer> Renderer::create(const RenderOptions& options) {
   return check(options)
-      .and_then([&] { return OffscreenContext::create(options.width, options.height); })
+      .and_then([&] { return OffscreenContext::create(options.width, options.height, samples_of(options.quality)); })
       .map([&](OffscreenContext&& context) { return Renderer(std::make_unique<Impl>(options, std::move(context))); });
 }
 
