@@ -15,7 +15,7 @@ vec3 ramp_color(float value) {
 }
 )";
 
-inline constexpr char kShownNumber[] = R"(#version 130
+inline constexpr char kShownNumber[] = R"(
 uniform int color_by;
 // The number that colours show, in the order of ColorBy.
 float shown_number(vec3 p, vec3 n, float sunk, vec4 mark) {
@@ -59,29 +59,35 @@ vec3 octaves(vec2 p, float wave, int count, float pixel) {
 inline constexpr char kGroundVertex[] = R"(in vec2 sinkage;
 in vec4 mark;
 out vec3 world, facing;
-out float sunk, moved, shown;
+out float sunk, moved;
+#ifdef NUMBERS
+out float shown;
+#endif
 void main() {
   world = gl_Vertex.xyz;
   facing = gl_Normal;
   sunk = sinkage.x;
   moved = sinkage.y;
+#ifdef NUMBERS
   shown = shown_number(world, normalize(gl_Normal), sunk, mark);
+#endif
   gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
 }
 )";
 
 inline constexpr char kGroundFragment[] = R"(
-uniform int color_by;
 uniform vec2 height_range;
 uniform float detail_wave, sinkage_scale;
-in float sunk, moved, shown;
+in float sunk, moved;
+#ifdef NUMBERS
+in float shown;
+#endif
 
 void main() {
   vec3 n = normalize(facing);
-  if (color_by != 0) {
-    gl_FragColor = vec4(shade(ramp_color(shown), n, openness(world, n), 0.0), 1.0);
-    return;
-  }
+#ifdef NUMBERS
+  gl_FragColor = vec4(shade(ramp_color(shown), n, openness(world, n), 0.0), 1.0);
+#else
   float pixel = length(fwidth(world.xy)) * 0.7;
   vec3 broad = octaves(world.xy, detail_wave, 4, pixel);
   vec3 fine = octaves(world.xy + 311.7, detail_wave / 9.0, 7, pixel);
@@ -101,6 +107,7 @@ void main() {
   // Loose soil is rougher than what grew over it.
   n = normalize(n - vec3(fine.yz, 0.0) * mix(0.16, 0.30, turned));
   gl_FragColor = vec4(shade(albedo, n, openness(world, n), 0.0), 1.0);
+#endif
 }
 )";
 

@@ -5,8 +5,7 @@ namespace divot::viewer::glsl {
 
 // Varyings are taken inside the triangle (centroid): extrapolated to a pixel's middle outside of it they would sprinkle
 // dark dots along ridges.
-inline constexpr char kLightInputs[] = R"(#version 130
-uniform mat4 osg_ViewMatrixInverse;
+inline constexpr char kLightInputs[] = R"(uniform mat4 osg_ViewMatrixInverse;
 uniform vec3 sun_direction, sun_color, sky_color, bounce_color, haze_color;
 uniform vec2 haze_range;
 uniform sampler2DShadow shadow_map;
@@ -46,8 +45,7 @@ float sunlight(vec3 p, vec3 n) {
 inline constexpr char kFastSunlight[] = R"(
 float sunlight(vec3 p, vec3 n) {
   vec3 s = (shadow_matrix * vec4(p + n * (2.0 * shadow_texel), 1.0)).xyz;
-  float border = max(abs(s.x - 0.5), abs(s.y - 0.5)) * 2.0;
-  float lit = border >= 1.0 || s.z >= 1.0 ? 1.0 : textureLod(shadow_map, s, 0.0);
+  float lit = textureLod(shadow_map, s, 0.0);
   for (int i = 0; i < occluder_count; ++i) {
     vec3 d = occluders[i].xyz - p;
     float along = dot(d, sun_direction), r2 = occluders[i].w * occluders[i].w;
@@ -88,14 +86,20 @@ vec3 develop(vec3 c) {
 }
 )";
 
-inline constexpr char kShade[] = R"(vec3 shade(vec3 albedo, vec3 n, float open, float gloss) {
+inline constexpr char kShade[] = R"(// x to the 64th.
+float shine(float x) {
+  for (int i = 0; i < 6; ++i) x *= x;
+  return x;
+}
+
+vec3 shade(vec3 albedo, vec3 n, float open, float gloss) {
   vec3 eye = osg_ViewMatrixInverse[3].xyz;
   vec3 to_eye = normalize(eye - world);
   float sun = sunlight(world, normalize(facing)) * smoothstep(-0.02, 0.12, dot(n, sun_direction));
   vec3 light = sun_color * max(dot(n, sun_direction), 0.0) * sun;
   light += mix(bounce_color, sky_color, 0.5 + 0.5 * n.z) * open;
   vec3 color = albedo * light;
-  color += sun_color * gloss * sun * pow(max(dot(n, normalize(to_eye + sun_direction)), 0.0), 60.0);
+  color += sun_color * gloss * sun * shine(max(dot(n, normalize(to_eye + sun_direction)), 0.0));
   float far = max(distance(eye, world) - haze_range.x, 0.0) / haze_range.y;
   return develop(mix(haze_color, color, exp(-far)));
 }

@@ -28,7 +28,8 @@ void main() {
   // Eight meridians and the equator, as on a globe.
   vec3 p = normalize(local);
   float ring = length(p.xy);
-  float meridian = ring * sin(4.0 * atan(p.y, p.x)) / 4.0;
+  // ring sin(4 angle) / 4, without the angle.
+  float meridian = p.x * p.y * (p.x * p.x - p.y * p.y) / max(ring * ring * ring, 1e-9);
   float mark = max(line(meridian, 0.014) * smoothstep(0.10, 0.14, ring), line(p.z, 0.045));
   vec3 n = normalize(facing);
   // Light that the ground throws back is weak below, where ball and ground meet.
@@ -46,18 +47,17 @@ void main() { gl_FragColor = vec4(1.0); }
 )";
 
 inline constexpr char kBackgroundVertex[] = R"(#version 130
-out float height;
+uniform vec3 background_top, background_bottom;
+out vec3 color;
 void main() {
-  height = 0.5 + 0.5 * gl_Vertex.y;
+  color = mix(background_bottom, background_top, smoothstep(0.0, 1.0, 0.5 + 0.5 * gl_Vertex.y));
   gl_Position = vec4(gl_Vertex.xy, 1.0, 1.0);
 }
 )";
 
 inline constexpr char kBackgroundFragment[] = R"(#version 130
-uniform vec3 background_top, background_bottom;
-in float height;
+in vec3 color;
 void main() {
-  vec3 color = mix(background_bottom, background_top, smoothstep(0.0, 1.0, height));
   // Half a step of noise hides the bands of 8-bit colour.
   float dither = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
   gl_FragColor = vec4(color + dither / 255.0, 1.0);

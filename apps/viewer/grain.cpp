@@ -7,7 +7,9 @@
 namespace divot::viewer {
 namespace {
 
-constexpr unsigned kSize = 512, kCoarsest = 4, kFinest = 128;  // texels; cells of noise along the texture
+constexpr unsigned kSize = 1024;  // texels
+// Cells along the texture of the longest and the shortest wave.
+constexpr unsigned kBroad[] = {4, 32}, kFine[] = {36, 288};
 
 float hash(std::uint32_t x, std::uint32_t y) {
   std::uint32_t h = x * 0x8da6b343u ^ y * 0xd8163841u;
@@ -26,17 +28,21 @@ float noise(unsigned u, unsigned v, unsigned cells) {
   return blend(blend(corner(i, j), corner(i + 1, j), fx), blend(corner(i, j + 1), corner(i + 1, j + 1), fx), fy) - 0.5f;
 }
 
+unsigned char octaves(unsigned u, unsigned v, const unsigned (&cells)[2]) {
+  float sum = 0.5f, weight = 0.5f;
+  for (unsigned c = cells[0]; c <= cells[1]; c *= 2, weight *= 0.66f) sum += weight * noise(u, v, c);
+  return static_cast<unsigned char>(std::lround(255 * std::clamp(sum, 0.0f, 1.0f)));
+}
+
 }  // namespace
 
 osg::ref_ptr<osg::Texture2D> make_grain() {
   osg::ref_ptr<osg::Image> image = new osg::Image;
-  image->allocateImage(kSize, kSize, 1, GL_LUMINANCE, GL_UNSIGNED_BYTE);
+  image->allocateImage(kSize, kSize, 1, GL_LUMINANCE_ALPHA, GL_UNSIGNED_BYTE);
   for (unsigned v = 0; v < kSize; ++v) {
     for (unsigned u = 0; u < kSize; ++u) {
-      float sum = 0.5f, weight = 0.5f;
-      for (unsigned cells = kCoarsest; cells <= kFinest; cells *= 2, weight *= 0.66f)
-        sum += weight * noise(u, v, cells);
-      *image->data(u, v) = static_cast<unsigned char>(std::lround(255 * std::clamp(sum, 0.0f, 1.0f)));
+      image->data(u, v)[0] = octaves(u, v, kBroad);
+      image->data(u, v)[1] = octaves(u, v, kFine);
     }
   }
   osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);

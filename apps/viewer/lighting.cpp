@@ -28,16 +28,19 @@ osg::Vec3d direction_to(const Sun& sun) {
 }
 
 osg::ref_ptr<osg::Texture2D> make_shadow_map(int size) {
+  const bool fast = size == kFastShadow;
   osg::ref_ptr<osg::Texture2D> map = new osg::Texture2D;
   map->setTextureSize(size, size);
-  map->setInternalFormat(GL_DEPTH_COMPONENT24);
+  map->setInternalFormat(fast ? GL_DEPTH_COMPONENT16 : GL_DEPTH_COMPONENT24);
   map->setSourceFormat(GL_DEPTH_COMPONENT);
-  map->setSourceType(GL_UNSIGNED_INT);
+  map->setSourceType(fast ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT);
   map->setShadowComparison(true);
   map->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR);
   map->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
-  map->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_EDGE);
-  map->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_EDGE);
+  // Beyond it nothing throws shadows.
+  map->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_BORDER);
+  map->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_BORDER);
+  map->setBorderColor(osg::Vec4d(1, 1, 1, 1));
   return map;
 }
 

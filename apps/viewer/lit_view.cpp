@@ -31,37 +31,42 @@ osg::ref_ptr<osg::Group> balls(osg::Node& child, osg::Program* program, const os
   return group;
 }
 
-// Ground and walls are seen from outside only: from inside they would flicker along ridges and far edges.
-osg::ref_ptr<osg::Group> block(const Subjects& subjects, Quality quality) {
-  osg::ref_ptr<osg::Group> block = new osg::Group;
-  block->addChild(group_of(subjects.ground, ground_program(quality)));
-  block->addChild(group_of(subjects.walls, wall_program(quality)));
-  osg::StateSet* state = block->getOrCreateStateSet();
-  state->setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
-  if (quality == Quality::fast) {
-    state->setTextureAttributeAndModes(kGrainUnit, make_grain());
-    state->addUniform(new osg::Uniform("grain", static_cast<int>(kGrainUnit)));
-  }
-  return block;
-}
-
 }  // namespace
 
 LitView::LitView(const Subjects& subjects, const Sun& sun, Quality quality)
-    : root_(new osg::Group), lighting_(sun, quality) {
+    : natural_(ground_program(quality, false)),
+      numbers_(ground_program(quality, true)),
+      ground_(group_of(subjects.ground, natural_)),
+      root_(new osg::Group),
+      lighting_(sun, quality) {
   for (osg::Group* caster : {&subjects.ground, &subjects.walls, &subjects.bombs}) lighting_.casters().addChild(caster);
   // Where quality is fast the shadows of bodies are formulas.
   if (quality == Quality::fine) lighting_.casters().addChild(&subjects.bodies);
   root_->addChild(&lighting_.shadow_root());
 
+  // Ground and walls are seen from outside only: from inside they would flicker along ridges and far edges.
+  osg::ref_ptr<osg::Group> block = new osg::Group;
+  block->addChild(ground_);
+  block->addChild(group_of(subjects.walls, wall_program(quality)));
+  block->getOrCreateStateSet()->setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
+
   osg::ref_ptr<osg::Group> lit = new osg::Group;
-  lighting_.apply(*lit->getOrCreateStateSet());
+  osg::StateSet* state = lit->getOrCreateStateSet();
+  lighting_.apply(*state);
+  if (quality == Quality::fast) {
+    state->setTextureAttributeAndModes(kGrainUnit, make_grain());
+    state->addUniform(new osg::Uniform("grain", static_cast<int>(kGrainUnit)));
+  }
   osg::ref_ptr<osg::Program> ball = ball_program(quality);
-  lit->addChild(block(subjects, quality));
+  lit->addChild(block);
   lit->addChild(balls(subjects.bodies, ball, kBodyColor, kPatternColor));
   lit->addChild(balls(subjects.bombs, ball, kBombColor, kBombColor));
   root_->addChild(lit);
   root_->addChild(make_background(kSkyTop, kSkyBottom));
+}
+
+void LitView::show_numbers(bool shown) {
+  ground_->getOrCreateStateSet()->setAttributeAndModes(shown ? numbers_ : natural_);
 }
 
 }  // namespace divot::viewer

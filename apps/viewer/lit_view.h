@@ -20,10 +20,15 @@ class LitView {
  public:
   LitView(const Subjects& subjects, const Sun& sun, Quality quality);
 
+  /// Whether the ground shows the number that `color_by` asks for, or its natural colours.
+  void show_numbers(bool shown);
+
   osg::Group& root() { return *root_; }
   Lighting& lighting() { return lighting_; }
 
  private:
+  osg::ref_ptr<osg::Program> natural_, numbers_;
+  osg::ref_ptr<osg::Group> ground_;
   osg::ref_ptr<osg::Group> root_;
   Lighting lighting_;
 };

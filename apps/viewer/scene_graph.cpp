@@ -51,6 +51,7 @@ void SceneGraph::set_look(const Look& look) {
   show(fast_.root(), !look.wireframe && look.quality == Quality::fast);
   show(particles_.root(), look.particles);
   show(explosions_.root(), look.effects && !look.wireframe);
+  for (LitView* view : {&fine_, &fast_}) view->show_numbers(look.color != ColorBy::natural);
   color_by_->set(static_cast<int>(look.color));
 }
 

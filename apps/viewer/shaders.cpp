@@ -15,6 +15,8 @@ namespace {
 static_assert(kMaxOccluders == 16, "the length of `occluders` in glsl_light.h and glsl_fast_ground.h");
 static_assert(kScaleStops == 5, "the length of `ramp` in glsl_ground.h");
 
+const std::string kVersion = "#version 130\n";
+
 osg::ref_ptr<osg::Program> make_program(const std::string& vertex, const std::string& fragment) {
   osg::ref_ptr<osg::Program> program = new osg::Program;
   program->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
@@ -33,24 +35,26 @@ std::string light(Quality quality) {
 
 }  // namespace
 
-osg::ref_ptr<osg::Program> ground_program(Quality quality) {
-  const std::string number = glsl::kShownNumber;
+osg::ref_ptr<osg::Program> ground_program(Quality quality, bool numbers) {
+  // Two programs and not one with a branch: software renderers take both sides of branches.
+  const std::string head = kVersion + (numbers ? "#define NUMBERS\n" : "");
+  const std::string vertex = head + glsl::kShownNumber;
   if (quality == Quality::fast) {
-    const std::string head = std::string("#version 130\n") + glsl::kFastDevelop + glsl::kRamp;
-    return make_program(number + glsl::kFastGroundVertex, head + glsl::kFastGroundFragment);
+    return make_program(vertex + glsl::kFastGroundVertex,
+                        head + glsl::kFastDevelop + glsl::kRamp + glsl::kFastGroundFragment);
   }
-  return make_program(number + glsl::kGroundVertex,
-                      light(quality) + glsl::kNoise + glsl::kRamp + glsl::kGroundFragment);
+  return make_program(vertex + glsl::kGroundVertex,
+                      head + light(quality) + glsl::kNoise + glsl::kRamp + glsl::kGroundFragment);
 }
 
 osg::ref_ptr<osg::Program> wall_program(Quality quality) {
   const std::string body =
       quality == Quality::fast ? std::string(glsl::kFastWallFragment) : std::string(glsl::kNoise) + glsl::kWallFragment;
-  return make_program(std::string(glsl::kShownNumber) + glsl::kGroundVertex, light(quality) + body);
+  return make_program(kVersion + glsl::kShownNumber + glsl::kGroundVertex, kVersion + light(quality) + body);
 }
 
 osg::ref_ptr<osg::Program> ball_program(Quality quality) {
-  return make_program(glsl::kBallVertex, light(quality) + glsl::kBallFragment);
+  return make_program(glsl::kBallVertex, kVersion + light(quality) + glsl::kBallFragment);
 }
 
 osg::ref_ptr<osg::Program> depth_program() { return make_program(glsl::kDepthVertex, glsl::kDepthFragment); }
@@ -58,7 +62,7 @@ osg::ref_ptr<osg::Program> background_program() {
   return make_program(glsl::kBackgroundVertex, glsl::kBackgroundFragment);
 }
 osg::ref_ptr<osg::Program> ink_program() {
-  return make_program(std::string(glsl::kShownNumber) + glsl::kRamp + glsl::kInkVertex, glsl::kInkFragment);
+  return make_program(kVersion + glsl::kShownNumber + glsl::kRamp + glsl::kInkVertex, glsl::kInkFragment);
 }
 osg::ref_ptr<osg::Program> point_program() { return make_program(glsl::kPointVertex, glsl::kTintFragment); }
 osg::ref_ptr<osg::Program> puff_program() { return make_program(glsl::kPuffVertex, glsl::kPuffFragment); }
