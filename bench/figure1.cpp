@@ -45,8 +45,8 @@ Result<Scene> scene(const std::string& scenes, const Policy& policy) {
                      {"solver.neighbours", "kd_tree"},
                      {"solver.neighbour_update", policy.update},
                      {"solver.bvh_update", policy.update},
-                     {"bodies.0.position", "[2, 2, 75]"},
-                     {"bodies.0.velocity", "[4, 0, -20]"},
+                     {"bodies.0.position", "[-8, 2, 75.5]"},
+                     {"bodies.0.velocity", "[15, 0, -40]"},
                      {"bodies.0.angular_velocity", "[0, 0, 0]"}});
 }
 

@@ -18,9 +18,9 @@ std::string processor() {
 }
 
 #if defined(__clang__)
-constexpr const char* kCompiler = "clang " __clang_version__;
+const std::string kCompiler = fmt::format("clang++ {}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__);
 #else
-constexpr const char* kCompiler = "g++ " __VERSION__;
+const std::string kCompiler = "g++ " __VERSION__;
 #endif
 
 #if defined(__OPTIMIZE__)

@@ -79,13 +79,24 @@ void add_size(CLI::App& command, int& width, int& height) {
       ->type_name("WIDTHxHEIGHT");
 }
 
+std::vector<double> read_times(const std::string& text) {
+  std::vector<double> times;
+  for (const std::string& word : CLI::detail::split(text, ',')) {
+    times.emplace_back();
+    if (!CLI::detail::lexical_cast(word, times.back()))
+      throw CLI::ValidationError("--at", fmt::format("\"{}\" is not a list of times, as in 0,1.5,3", text));
+  }
+  return times;
+}
+
 void add_render(CLI::App& app, RenderOptions& options) {
   CLI::App& command = *app.add_subcommand("render", "Simulate a scene and draw it, without a display");
   add_scene(command, options.scene);
   add_out(command, options.out, "folder for pictures (default: out/NAME)");
-  command.add_option("--at", options.at, "simulated times, s, as 0,1.5,3 (default: five from start to end)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
+  command
+      .add_option_function<std::string>(
+          "--at", [&options](const std::string& text) { options.at = read_times(text); },
+          "simulated times, s, as 0,1.5,3 (default: five from start to end)")
       ->type_name("S,...");
   add_size(command, options.width, options.height);
   command.add_flag("--wireframe", options.wireframe, "hidden lines instead of lit ground");

@@ -7,7 +7,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "output/atomic_file.h"
@@ -31,29 +33,48 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
+// Two digits, more before the point: 12, 1.2, 0.12.
+std::string value_text(double value) {
+  const int decimals = value >= 10 ? 0 : value >= 1 ? 1 : value >= 0.1 ? 2 : 3;
+  return fmt::format("{:.{}f}", value, decimals);
+}
+
+// A row for each group: label, then value and text of each series.
 std::string data_block(const BarChart& chart) {
   std::string out = "$data << end_of_data\n";
   for (std::size_t group = 0; group < chart.labels.size(); ++group) {
     out += quoted(chart.labels[group]);
-    for (const BarChart::Series& series : chart.series) out += fmt::format(" {}", series.values[group]);
+    for (const BarChart::Series& series : chart.series)
+      out += fmt::format(" {} {}", series.values[group], value_text(series.values[group]));
     out += '\n';
   }
   return out + "end_of_data\n";
 }
 
-// Bars, and over each its value.
+// Bars, over each its value, and below each group its label: points without a mark, as an axis takes labels from a plot
+// only.
 std::string plot_line(const BarChart& chart) {
   const double width = 1 / (static_cast<double>(chart.series.size()) + kGap);
-  std::string bars, values;
+  std::string text = "plot $data using 0:2:xtic(1) with dots linecolor rgb 'white' notitle";
   for (std::size_t k = 0; k < chart.series.size(); ++k) {
     const double shift = width * (static_cast<double>(k) - (static_cast<double>(chart.series.size()) - 1) / 2);
-    bars += fmt::format("{}$data using ($0+{}):{}:({}){} with boxes linecolor rgb '{}' title {}", k == 0 ? "" : ", ",
-                        shift, k + 2, 0.94 * width, k == 0 ? ":xtic(1)" : "", kColors[k % kColors.size()],
-                        quoted(chart.series[k].name));
-    values += fmt::format(", $data using ($0+{}):{}:(sprintf('%.2g',${})) with labels offset 0,0.55 font ',11' notitle",
-                          shift, k + 2, k + 2);
+    const std::size_t column = 2 + 2 * k;
+    text += fmt::format(", $data using ($0+{}):{}:({}) with boxes linecolor rgb '{}' title {}", shift, column,
+                        0.94 * width, kColors[k % kColors.size()], quoted(chart.series[k].name));
+    text += fmt::format(", $data using ($0+{}):{}:{} with labels offset 0,0.55 font ',11' textcolor rgb '{}' notitle",
+                        shift, column, column + 1, kInk);
   }
-  return "plot " + bars + values + "\n";
+  return text + "\n";
+}
+
+// From the decade below the least value to some room over the largest, for its text and the key.
+std::string y_range(const BarChart& chart) {
+  double least = 1e300, largest = 0;
+  for (const BarChart::Series& series : chart.series)
+    for (const double value : series.values) least = std::min(least, value), largest = std::max(largest, value);
+  if (!chart.log_scale) return fmt::format("set yrange [0:{}]\n", 1.15 * largest);
+  return fmt::format("set logscale y\nset format y '%g'\nset yrange [{}:{}]\n",
+                     std::pow(10, std::floor(std::log10(least))), 3 * largest);
 }
 
 std::string script(const BarChart& chart, const std::string& path) {
@@ -64,11 +85,9 @@ std::string script(const BarChart& chart, const std::string& path) {
   out += fmt::format("set border 3 linecolor rgb '{}'\nset tics nomirror textcolor rgb '{}'\n", kInk, kInk);
   out += "set xtics scale 0\nset grid ytics linecolor rgb '#d8dde3' linetype 1\n";
   out += fmt::format("set key top right textcolor rgb '{}' noenhanced\n", kInk);
-  out += "set style fill solid 1 noborder\nset offsets 0.05, 0.05, graph 0.12, 0\n";
+  out += "set style fill solid 1 noborder\n";
   out += fmt::format("set xrange [-0.5:{}]\n", static_cast<double>(chart.labels.size()) - 0.5);
-  if (chart.log_scale) out += "set logscale y\nset format y '%g'\n";
-  if (!chart.log_scale) out += "set yrange [0:*]\n";
-  return out + data_block(chart) + plot_line(chart);
+  return out + y_range(chart) + data_block(chart) + plot_line(chart);
 }
 
 tl::unexpected<Errors> failure(const std::string& path, const std::string& problem) {

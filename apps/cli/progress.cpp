@@ -30,11 +30,17 @@ std::string span_of_time(double seconds) {
 
 }  // namespace
 
+std::string factor_text(double factor) {
+  const int decimals = factor < 10 ? 2 : factor < 100 ? 1 : 0;
+  return fmt::format("{:.{}f}", factor, decimals);
+}
+
 std::string progress_line(double simulated, double total, double elapsed, int width) {
   const double share = std::clamp(simulated / total, 0.0, 1.0);
   std::string text = fmt::format("{:.2f} of {:g} s", simulated, total);
   if (elapsed > 0 && simulated > 0)
-    text += fmt::format(", {:.3g} x real time, {} left", simulated / elapsed, span_of_time(elapsed * (1 / share - 1)));
+    text += fmt::format(", {} x real time, {} left", factor_text(simulated / elapsed),
+                        span_of_time(elapsed * (1 / share - 1)));
   const auto room = static_cast<std::size_t>(std::max(width, 0));
   if (text.size() > room) return text.substr(0, room);
   // Brackets and a blank around the bar.

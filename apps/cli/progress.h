@@ -5,6 +5,9 @@
 
 namespace divot::cli {
 
+/// How many seconds are simulated in one, to about three digits: 0.25, 12.5, 1200.
+std::string factor_text(double factor);
+
 /// How far a run is, as a line of at most `width` columns: bar, simulated time, real-time factor, time left. What does
 /// not fit is left out, the bar first. `simulated`, `total` and `elapsed` in s, `total` > 0.
 std::string progress_line(double simulated, double total, double elapsed, int width);

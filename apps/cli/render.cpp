@@ -85,9 +85,9 @@ Result<void> Filming::write_sheet() const {
 }  // namespace
 
 int render(const RenderOptions& options) {
-  catch_interrupts();
   auto world = open_world(options.scene);
   if (!world) return report(world.error(), kBadInput);
+  catch_interrupts();
   const auto times = picture_times(options, world->scene());
   if (!times) return report(times.error(), kBadInput);
   auto renderer = viewer::Renderer::create(

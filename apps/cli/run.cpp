@@ -84,9 +84,9 @@ Result<RunTotals> Run::go(bool show_progress) {
 }  // namespace
 
 int run(const RunOptions& options) {
-  catch_interrupts();
   auto world = open_world(options.scene);
   if (!world) return report(world.error(), kBadInput);
+  catch_interrupts();
   const std::string folder = results_folder(options.out, world->scene());
   auto recorder = Recorder::create(folder);
   if (!recorder) return report(recorder.error(), kFailed);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/progress.h"
 #include "output/heading.h"
 
 namespace divot::cli {
@@ -43,8 +44,8 @@ std::string flag_lines(const World& world, const RunTotals& totals) {
 }  // namespace
 
 std::string run_summary(const World& world, const RunTotals& totals, const std::string& folder) {
-  std::string text = fmt::format("{}: {:.4g} s simulated in {:.3g} s, {:.3g} x real time\n", world.scene().name,
-                                 world.time(), totals.wall_s, world.time() / totals.wall_s);
+  std::string text = fmt::format("{}: {:.4g} s simulated in {:.3g} s, {} x real time\n", world.scene().name,
+                                 world.time(), totals.wall_s, factor_text(world.time() / totals.wall_s));
   text += line("terrain", fmt::format("{} triangles", world.surface().triangles.size() / 3));
   text += line("particles", fmt::format("{} awake at most", world.peak_particles()));
   for (const Crater& crater : world.craters()) text += crater_line(crater);

@@ -9,7 +9,7 @@ namespace divot {
 /// One thing that is wrong with an input: where it is, what it is and what would be right.
 struct Error {
   std::string file = {};      ///< path as the user gave it; empty when there is no file
-  int line = 0;          ///< 1-based; 0 when the problem has no line
+  int line = 0;               ///< 1-based; 0 when the problem has no line
   std::string key = {};       ///< dotted path of the scene key; empty when there is none
   std::string problem = {};   ///< what is wrong, in words
   std::string expected = {};  ///< what would be right, in words; may be empty

@@ -8,38 +8,43 @@
 
 namespace divot {
 
-/// The soil of a part of the terrain. Plain numbers in SI; docs/physics.md has the laws and the source of each preset's values.
+/// The soil of a part of the terrain. Plain numbers in SI; docs/physics.md has the laws and the source of each preset's
+/// values.
 struct Material {
   std::string name = "paper";
 
   // The particle system (eq. 1-6). Mass, dissociation energy and global damping belong to particles that stand
-  // `reference_spacing` apart; on any other mesh they scale with the square of the spacing, so that results do not depend on it.
-  double reference_spacing = 10.9;      ///< m, > 0
-  double particle_mass = 1.0;           ///< kg, > 0
-  double dissociation_energy = 300.0;   ///< e0 of eq. 6, J, >= 0
-  double attraction_exponent = 2.0;     ///< m of eq. 6, > 0
-  double repulsion_exponent = 4.0;      ///< n of eq. 6, > attraction_exponent
-  double spring_stiffness = 20.2;       ///< k_s of eq. 1, N/m, >= 0; used with cohesion = "mass_spring"
-  double yield_strain = 0.02;           ///< bonds keep their length up to this strain and flow beyond it, > 0
-  double viscous_damping = 0.2;         ///< k_d of eq. 2, N s/m, >= 0
-  double global_damping = 0.5;          ///< gamma of eq. 3, kg/s, >= 0
+  // `reference_spacing` apart; on any other mesh they scale with the square of the spacing, so that results do not
+  // depend on it.
+  double reference_spacing = 10.9;     ///< m, > 0
+  double particle_mass = 1.0;          ///< kg, > 0
+  double dissociation_energy = 300.0;  ///< e0 of eq. 6, J, >= 0
+  double attraction_exponent = 2.0;    ///< m of eq. 6, > 0
+  double repulsion_exponent = 4.0;     ///< n of eq. 6, > attraction_exponent
+  double spring_stiffness = 20.2;      ///< k_s of eq. 1, N/m, >= 0; used with cohesion = "mass_spring"
+  double yield_strain = 0.02;          ///< bonds keep their length up to this strain and flow beyond it, > 0
+  double viscous_damping = 0.2;        ///< k_d of eq. 2, N s/m, >= 0
+  double global_damping = 0.5;         ///< gamma of eq. 3, kg/s, >= 0
 
-  // The ground under a particle: p = (kc/b + kphi) z^n [Bekker 1969], tau = (c + p tan phi)(1 - exp(-j/K)) [Janosi & Hanamoto 1961].
-  bool ground = true;                   ///< false: the bare particle sheet of the paper, with nothing below it
-  double bekker_kc = 0.0;               ///< N/m^(n+1)
-  double bekker_kphi = 1.2;             ///< N/m^(n+2); kc/b + kphi must stay > 0
-  double bekker_n = 1.0;                ///< 1, in (0, 3]
-  double elastic_stiffness = 12.0;      ///< unloading and reloading, Pa/m, > 0
-  double ground_damping_ratio = 0.1;    ///< of the ground under a free particle, 1 is critical, >= 0
-  double cohesion = 1.0;                ///< c, Pa, >= 0
-  double friction_angle_deg = 30.0;     ///< phi, degrees, [0, 60]
-  double shear_modulus = 0.5;           ///< K of Janosi-Hanamoto, m, > 0
-  double restitution = 0.3;             ///< multiplied by the body's, [0, 1]
+  // The ground under a particle: p = (kc/b + kphi) z^n [Bekker 1969], tau = (c + p tan phi)(1 - exp(-j/K)) [Janosi &
+  // Hanamoto 1961].
+  bool ground = true;                  ///< false: the bare particle sheet of the paper, with nothing below it
+  double bekker_kc = 0.0;              ///< N/m^(n+1)
+  double bekker_kphi = 1.2;            ///< N/m^(n+2); kc/b + kphi must stay > 0
+  double bekker_n = 1.0;               ///< 1, in (0, 3]
+  double elastic_stiffness = 12.0;     ///< unloading and reloading, Pa/m, > 0
+  double ground_damping_ratio = 0.15;  ///< of ground that moves with a particle or is compressed, 1 is critical, >= 0
+  double cohesion = 1.0;               ///< c, Pa, >= 0
+  double friction_angle_deg = 30.0;    ///< phi, degrees, [0, 60]
+  double shear_modulus = 0.5;          ///< K of Janosi-Hanamoto, m, > 0
+  double restitution = 0.3;            ///< multiplied by the body's, [0, 1]
 
-  // What a blast meets (scaled blast, docs/physics.md): the soil fails where the pressure exceeds its strength and flows against its drag.
-  double blast_strength = 985.0;        ///< Pa, > 0: sets the crater's width
-  double blast_drag = 0.94;             ///< Pa s/m, > 0: sets the crater's depth
-  double ejecta_share = 0.185;          ///< share of the crater's volume that lands on lip and blanket, [0, 1); the rest is compacted
+  // What a blast meets (scaled blast, docs/physics.md): the soil fails where the pressure exceeds its strength and
+  // flows against its drag.
+  double blast_strength = 985.0;  ///< Pa, > 0: sets the crater's width
+  double blast_drag = 0.94;       ///< Pa s/m, > 0: sets the crater's depth
+  double ejecta_share =
+      0.185;  ///< share of the crater's volume that lands on lip and blanket, [0, 1); the rest is compacted
 };
 
 /// The presets by name: `paper`, `dry_sand`, `mud`, `asphalt`.

@@ -17,9 +17,9 @@ namespace divot {
 
 /// A regular grid of vertices, centred on the origin.
 struct GridTerrain {
-  int columns = 37;      ///< vertices along x, >= 2
-  int rows = 40;         ///< vertices along y, >= 2
-  double spacing = 10.9; ///< m, > 0
+  int columns = 37;       ///< vertices along x, >= 2
+  int rows = 40;          ///< vertices along y, >= 2
+  double spacing = 10.9;  ///< m, > 0
   /// Height in metres at x, y in metres; flat where it is empty. Only the C++ interface can set it.
   std::function<double(double x, double y)> height = {};
 };
@@ -27,16 +27,17 @@ struct GridTerrain {
 /// A digital elevation model in any raster format that GDAL reads.
 struct DemTerrain {
   std::string path = {};  ///< relative paths start at the scene file's folder
-  std::string crs = {};   ///< what the file's coordinates are (`EPSG:4326`), for formats that cannot say; empty: what the file says
-  double spacing = 0;     ///< m, resampled to this; 0: as fine as the file
-  int band = 1;      ///< >= 1
+  std::string crs =
+      {};  ///< what the file's coordinates are (`EPSG:4326`), for formats that cannot say; empty: what the file says
+  double spacing = 0;  ///< m, resampled to this; 0: as fine as the file
+  int band = 1;        ///< >= 1
 };
 
 /// Where the ground comes from and what it is made of.
 struct TerrainSource {
   std::variant<GridTerrain, DemTerrain> shape = GridTerrain{};
-  std::string material = "paper";            ///< a name in Scene::materials or of a preset
-  std::uint64_t max_vertices = 20'000'000;   ///< a larger terrain is refused before memory is taken
+  std::string material = "paper";           ///< a name in Scene::materials or of a preset
+  std::uint64_t max_vertices = 20'000'000;  ///< a larger terrain is refused before memory is taken
 };
 
 /// A rigid ball.
@@ -48,26 +49,26 @@ struct Sphere {
 struct BodySettings {
   std::string name = {};
   Sphere shape = {};
-  double mass = 1;           ///< kg, > 0
-  Vec3d position = {};            ///< of its centre, m, in the terrain's coordinates (docs/scene-format.md, "Coordinates")
-  bool above_ground = false; ///< true: position.z is the height of its lowest point above the ground there
-  Vec3d velocity = {};            ///< m/s
-  Vec3d angular_velocity = {};    ///< rad/s
-  double restitution = 0.5;  ///< multiplied by the material's, [0, 1]
-  double friction = 0.8;     ///< Coulomb's, between body and soil and between bodies, >= 0
+  double mass = 1;            ///< kg, > 0
+  Vec3d position = {};        ///< of its centre, m, in the terrain's coordinates (docs/scene-format.md, "Coordinates")
+  bool above_ground = false;  ///< true: position.z is the height of its lowest point above the ground there
+  Vec3d velocity = {};        ///< m/s
+  Vec3d angular_velocity = {};  ///< rad/s
+  double restitution = 0.5;     ///< multiplied by the material's, [0, 1]
+  double friction = 0.8;        ///< Coulomb's, between body and soil and between bodies, >= 0
 };
 
 /// A charge.
 struct Bomb {
-  double time = 0;   ///< s, when it goes off, >= 0
-  Vec3d position = {};    ///< m, in the terrain's coordinates; one below the ground goes off at the ground
+  double time = 0;            ///< s, when it goes off, >= 0
+  Vec3d position = {};        ///< m, in the terrain's coordinates; one below the ground goes off at the ground
   bool above_ground = false;  ///< true: position.z is the height of burst above the ground there
-  double yield = 1;  ///< metric tons of TNT, > 0
+  double yield = 1;           ///< metric tons of TNT, > 0
 };
 
 /// What a run writes.
 struct OutputSettings {
-  double every = 0;                  ///< s between frames of `formats`; 0: only the final state
+  double every = 0;                       ///< s between frames of `formats`; 0: only the final state
   std::vector<std::string> formats = {};  ///< of `ply`, `tif`, `csv`
 };
 

@@ -6,8 +6,8 @@ namespace divot {
 
 enum class Cohesion : std::uint8_t { lennard_jones, mass_spring };  ///< eq. 6, eq. 1
 enum class Blast : std::uint8_t { scaled, paper };                  ///< docs/physics.md, "Blast"
-enum class Integrator : std::uint8_t { automatic, euler, rk4 };     ///< automatic: rk4 while a blast acts, euler otherwise
-enum class Neighbours : std::uint8_t { grid, kd_tree };             ///< both give the same rows
+enum class Integrator : std::uint8_t { automatic, euler, rk4 };  ///< automatic: rk4 while a blast acts, euler otherwise
+enum class Neighbours : std::uint8_t { grid, kd_tree };          ///< both give the same rows
 
 /// How often a search structure is brought up to date (the paper's Figure 1).
 struct UpdatePolicy {
@@ -25,8 +25,9 @@ struct Settings {
   Neighbours neighbours = Neighbours::grid;
   UpdatePolicy neighbour_update;
   UpdatePolicy bvh_update;
-  double cutoff = 1.75;  ///< range of cohesion in grid spacings, [1.1, 4]; 1.75 reaches the eight nearest on a square grid
-  double skin = 0.3;     ///< reach added to neighbour rows so that they last, in grid spacings, (0, 2]
+  double cutoff =
+      1.6;             ///< range of cohesion in grid spacings, [1.1, 4]; 1.6 reaches the eight nearest on a square grid
+  double skin = 0.38;  ///< reach added to neighbour rows so that they last, in grid spacings, (0, 2]
 };
 
 }  // namespace divot

@@ -8,9 +8,18 @@ namespace divot {
 struct Vec3 {
   float x = 0, y = 0, z = 0;
 
-  Vec3& operator+=(const Vec3& b) { x += b.x, y += b.y, z += b.z; return *this; }
-  Vec3& operator-=(const Vec3& b) { x -= b.x, y -= b.y, z -= b.z; return *this; }
-  Vec3& operator*=(float s) { x *= s, y *= s, z *= s; return *this; }
+  Vec3& operator+=(const Vec3& b) {
+    x += b.x, y += b.y, z += b.z;
+    return *this;
+  }
+  Vec3& operator-=(const Vec3& b) {
+    x -= b.x, y -= b.y, z -= b.z;
+    return *this;
+  }
+  Vec3& operator*=(float s) {
+    x *= s, y *= s, z *= s;
+    return *this;
+  }
   friend Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
   friend Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
   friend Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
@@ -35,9 +44,18 @@ inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinit
 struct Vec3d {
   double x = 0, y = 0, z = 0;
 
-  Vec3d& operator+=(const Vec3d& b) { x += b.x, y += b.y, z += b.z; return *this; }
-  Vec3d& operator-=(const Vec3d& b) { x -= b.x, y -= b.y, z -= b.z; return *this; }
-  Vec3d& operator*=(double s) { x *= s, y *= s, z *= s; return *this; }
+  Vec3d& operator+=(const Vec3d& b) {
+    x += b.x, y += b.y, z += b.z;
+    return *this;
+  }
+  Vec3d& operator-=(const Vec3d& b) {
+    x -= b.x, y -= b.y, z -= b.z;
+    return *this;
+  }
+  Vec3d& operator*=(double s) {
+    x *= s, y *= s, z *= s;
+    return *this;
+  }
   friend Vec3d operator+(Vec3d a, const Vec3d& b) { return a += b; }
   friend Vec3d operator-(Vec3d a, const Vec3d& b) { return a -= b; }
   friend Vec3d operator-(const Vec3d& a) { return {-a.x, -a.y, -a.z}; }

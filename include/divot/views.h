@@ -11,11 +11,20 @@ namespace divot {
 
 /// The ground as it stands, without a copy. Valid until the world's next step.
 struct SurfaceView {
-  Vec3d origin;                               ///< m; add to a position for the terrain's own coordinates
-  std::span<const Vec3> positions;            ///< [vertex] m, relative to origin
-  std::span<const std::uint32_t> triangles;   ///< [3 * face] vertex ids, counter-clockwise from above: ready as an index buffer
-  std::span<const std::uint8_t> materials;    ///< [vertex] index into World::materials()
-  double spacing = 0;                         ///< m, mean grid spacing
+  Vec3d origin;                     ///< m; add to a position for the terrain's own coordinates
+  std::span<const Vec3> positions;  ///< [vertex] m, relative to origin
+  std::span<const std::uint32_t>
+      triangles;  ///< [3 * face] vertex ids, counter-clockwise from above: ready as an index buffer
+  std::span<const std::uint8_t> materials;  ///< [vertex] index into World::materials()
+  double spacing = 0;                       ///< m, mean grid spacing
+};
+
+/// What may move a particle.
+enum class Hold : std::uint8_t {
+  free,     ///< forces
+  carried,  ///< the body that presses on it
+  anchor,   ///< nothing: it stands at the border of the awake ground
+  asleep,   ///< nothing: it has been still and leaves in the next step
 };
 
 /// The particles that are awake, without a copy. Valid until the world's next step.
@@ -23,29 +32,29 @@ struct ParticleView {
   std::span<const std::uint32_t> vertices;  ///< [particle] the surface vertex it moves, ascending
   std::span<const float> x, y, z;           ///< [particle] m, relative to the surface's origin
   std::span<const float> vx, vy, vz;        ///< [particle] m/s
-  std::span<const std::uint8_t> fixed;      ///< [particle] 1: an anchor at the border, which does not move
+  std::span<const Hold> hold;               ///< [particle] what moves it, a Hold
 };
 
 /// A body as it is now.
 struct BodyView {
   std::string name;
-  double radius = 0;      ///< m
-  double mass = 0;        ///< kg
-  Vec3d position;         ///< of the centre, m, in the terrain's coordinates
+  double radius = 0;  ///< m
+  double mass = 0;    ///< kg
+  Vec3d position;     ///< of the centre, m, in the terrain's coordinates
   Quat orientation;
-  Vec3d velocity;         ///< m/s
-  Vec3d angular_velocity; ///< rad/s
-  double sinkage = 0;     ///< m, how deep its lowest contact lies below the original ground; 0 in the air
-  double max_sinkage = 0; ///< m, the largest so far
+  Vec3d velocity;          ///< m/s
+  Vec3d angular_velocity;  ///< rad/s
+  double sinkage = 0;      ///< m, how deep its lowest contact lies below the original ground; 0 in the air
+  double max_sinkage = 0;  ///< m, the largest so far
   bool touching = false;
   bool off_terrain = false;  ///< has left the terrain and falls
 };
 
 /// A bomb as it is now.
 struct BombView {
-  Vec3d position;  ///< m, in the terrain's coordinates
-  double time = 0; ///< s
-  double yield = 0; ///< t of TNT
+  Vec3d position;    ///< m, in the terrain's coordinates
+  double time = 0;   ///< s
+  double yield = 0;  ///< t of TNT
   bool exploded = false;
 };
 

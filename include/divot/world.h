@@ -19,9 +19,9 @@ namespace divot {
 
 /// What one step met that a caller should know of. Nothing here is an error; the world stays usable.
 struct StepReport {
-  int substeps = 1;             ///< how often forces and motion were evaluated within the step
+  int substeps = 1;               ///< how often forces and motion were evaluated within the step
   bool substeps_limited = false;  ///< more would have been needed for full stiffness; the ground was softened instead
-  bool not_finite = false;      ///< a value left the range of numbers; the particle or body was put to rest where it was
+  bool not_finite = false;  ///< a value left the range of numbers; the particle or body was put to rest where it was
 };
 
 /// Time and calls of a stage since the world was made.
@@ -50,8 +50,8 @@ struct Crater {
   double paper_width = 0;  ///< m, eq. 10
 };
 
-/// Where the soil went since the world was made, m^3. Displaced and deposited are integrated over the surface, compacted is
-/// summed over the soil's change of density.
+/// Where the soil went since the world was made, m^3. Displaced and deposited are integrated over the surface,
+/// compacted is summed over the soil's change of density.
 struct SoilVolume {
   double displaced = 0, compacted = 0, deposited = 0;
   /// |displaced - compacted - deposited| / displaced; 0 when nothing moved.
@@ -61,7 +61,8 @@ struct SoilVolume {
 /// Ground, bodies and bombs that move together. Steps on the threads it was given; several worlds live side by side.
 class World {
  public:
-  /// Loads the terrain and places what the scene holds. Fails with everything that is wrong with the scene or its files.
+  /// Loads the terrain and places what the scene holds. Fails with everything that is wrong with the scene or its
+  /// files.
   static Result<World> create(const Scene& scene, std::shared_ptr<const Jobs> jobs = nullptr);
 
   World(World&&) noexcept;
@@ -77,9 +78,9 @@ class World {
   /// Adds a bomb; one whose time has passed goes off in the next step. Fails like a scene with that bomb.
   Result<void> add_bomb(const Bomb& bomb);
 
-  double time() const;          ///< s
+  double time() const;  ///< s
   std::uint64_t steps() const;
-  const Scene& scene() const;   ///< as given to create()
+  const Scene& scene() const;  ///< as given to create()
 
   SurfaceView surface() const;
   ParticleView particles() const;

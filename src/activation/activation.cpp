@@ -5,8 +5,6 @@
 namespace divot::activation {
 namespace {
 
-using state::Hold;
-
 void sort_unique(std::vector<std::uint32_t>& list) {
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -48,8 +46,8 @@ void list_anchors(const state::Surface& surface, const std::vector<std::uint32_t
 }
 
 // Appends the row of a vertex: as it was, or fresh from the surface.
-void append_row(state::Particles& to, const state::Particles& from, const state::Surface& surface, const state::Soil& soil,
-                std::span<const laws::Medium> media, std::uint32_t vertex, bool anchor) {
+void append_row(state::Particles& to, const state::Particles& from, const state::Surface& surface,
+                const state::Soil& soil, std::span<const laws::Medium> media, std::uint32_t vertex, bool anchor) {
   const std::uint32_t column = surface.column[vertex], old = soil.particle[column];
   const Vec3 position = old != kNone ? from.position(old) : surface.position[vertex];
   const bool moves_on = !anchor && is_awake(from, soil, surface, vertex);
@@ -68,8 +66,8 @@ void append_row(state::Particles& to, const state::Particles& from, const state:
 
 }  // namespace
 
-bool update(state::Particles& particles, state::Soil& soil, state::Surface& surface, std::span<const laws::Medium> media,
-            std::vector<std::uint32_t>& wake, Scratch& scratch) {
+bool update(state::Particles& particles, state::Soil& soil, state::Surface& surface,
+            std::span<const laws::Medium> media, std::vector<std::uint32_t>& wake, Scratch& scratch) {
   const bool changed = list_awake(particles, soil, surface, wake, scratch.awake);
   wake.clear();
   if (!changed) return false;

@@ -22,9 +22,9 @@ struct Scratch {
   state::Particles next;
 };
 
-/// Drops particles that have been still, wakes `wake` (any order, repeats allowed; cleared), and surrounds what is awake with
-/// anchors. True if rows changed: indices of particles are then other ones.
-bool update(state::Particles& particles, state::Soil& soil, state::Surface& surface, std::span<const laws::Medium> media,
-            std::vector<std::uint32_t>& wake, Scratch& scratch);
+/// Drops particles that have been still, wakes `wake` (any order, repeats allowed; cleared), and surrounds what is
+/// awake with anchors. True if rows changed: indices of particles are then other ones.
+bool update(state::Particles& particles, state::Soil& soil, state::Surface& surface,
+            std::span<const laws::Medium> media, std::vector<std::uint32_t>& wake, Scratch& scratch);
 
 }  // namespace divot::activation

@@ -11,17 +11,18 @@ namespace divot::contact {
 namespace {
 
 // The surface may follow a body sideways by this share of the spacing in all, so that its triangles keep their shape.
-constexpr float kMostDrag = 0.35f;
+constexpr float kMostDrag = 0.1f;
 
 void meet_ground(state::Body& body, const Situation& s, Scratch::PerBody& scratch) {
   body.near_left -= s.ground_moved;
   find_near(body, s, scratch);
-  gather(body, s, scratch.ground);
-  meet_soil(body, scratch.ground, s);
+  gather(body, s, scratch.presses, scratch.footings);
+  meet_soil(body, scratch.footings, s, scratch.contacts);
 }
 
 bool pressed_before(const std::vector<Press>& last, std::uint32_t vertex) {
-  const auto at = std::lower_bound(last.begin(), last.end(), vertex, [](const Press& p, std::uint32_t v) { return p.vertex < v; });
+  const auto at =
+      std::lower_bound(last.begin(), last.end(), vertex, [](const Press& p, std::uint32_t v) { return p.vertex < v; });
   return at != last.end() && at->vertex == vertex;
 }
 
@@ -36,8 +37,8 @@ void wake_pressed(const Scratch::PerBody& scratch, const state::Surface& surface
 void release(const Scratch::PerBody& scratch, state::Particles& p, state::Soil& soil, const state::Surface& surface) {
   for (const Press& press : scratch.last) {
     const std::uint32_t column = surface.column[press.vertex], i = soil.particle[column];
-    if (i == kNone || p.hold[i] != state::Hold::carried) continue;
-    p.hold[i] = state::Hold::free;
+    if (i == kNone || p.hold[i] != Hold::carried) continue;
+    p.hold[i] = Hold::free;
     p.set_velocity(i, {});
     if (!pressed_before(scratch.presses, press.vertex)) soil.shear[column] = {};
   }
@@ -55,9 +56,9 @@ void press(const Press& press, state::Particles& p, state::Soil& soil, const sta
   const float fresh = soil.fresh_height(column);
   const Vec3 place = keep_shape(press.position, soil.original[column], surface.spacing);
   // Where two bodies press one vertex, the deeper one carries it.
-  const bool shared = p.hold[i] == state::Hold::carried;
+  const bool shared = p.hold[i] == Hold::carried;
   if (!shared || place.z < p.z[i] + dt * p.vz[i]) p.set_velocity(i, (1 / dt) * (place - p.position(i)));
-  p.hold[i] = state::Hold::carried;
+  p.hold[i] = Hold::carried;
   p.flow_rate[i] = 0;
   p.still_steps[i] = 0;
   soil.shear[column] = press.shear;
@@ -67,8 +68,8 @@ void press(const Press& press, state::Particles& p, state::Soil& soil, const sta
 
 }  // namespace
 
-void move_bodies(std::span<state::Body> bodies, RigidBodies& rigid, const Situation& s, std::vector<std::uint32_t>& wake,
-                 Scratch& scratch, const Jobs& jobs) {
+void move_bodies(std::span<state::Body> bodies, RigidBodies& rigid, const Situation& s,
+                 std::vector<std::uint32_t>& wake, Scratch& scratch, const Jobs& jobs) {
   scratch.bodies.resize(bodies.size());
   jobs.for_ranges(bodies.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) meet_ground(bodies[i], s, scratch.bodies[i]);
@@ -80,7 +81,7 @@ void move_bodies(std::span<state::Body> bodies, RigidBodies& rigid, const Situat
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Scratch::PerBody& own = scratch.bodies[i];
     std::swap(own.last, own.presses);
-    record_presses(bodies[i], own.ground, s, own.presses);
+    record_presses(bodies[i], own.footings, own.contacts, own.presses);
     bodies[i].near_left -= length(bodies[i].position - before[i]);
     wake_pressed(own, s.surface, wake);
   }

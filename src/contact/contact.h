@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -21,25 +22,63 @@
 // sums      a body's columns in ascending order of vertex
 namespace divot::contact {
 
-/// One column under a body: where the body has pressed it to.
-struct Press {
-  std::uint32_t vertex = 0;
-  Vec3 position;      ///< of the surface at the end of the step, m
-  Vec3 shear;         ///< shear displacement j, m
-  float plastic = 0;  ///< m
+/// How a column ends the step under the body.
+struct Answer {
+  double plastic = 0;   ///< m
+  double pressure = 0;  ///< Pa
+  Vec3d shear;          ///< m
 };
 
-/// What a body finds under it: gathered once a step, so that the solve runs over plain arrays.
-struct Ground {
-  std::vector<std::uint32_t> vertex;  ///< ascending
-  std::vector<std::uint8_t> material;
-  std::vector<double> x, y;           ///< m
-  std::vector<double> height;         ///< m: at or above it nothing is touched
-  std::vector<double> fresh;          ///< m: sinkage counts from here
-  std::vector<double> original;       ///< m, before the first touch
-  std::vector<double> plastic, area, mass, pull, speed;  ///< m, m^2, kg, N, m/s (vertical)
-  std::vector<Vec3d> shear;           ///< m
-  std::size_t deepest = 0;            ///< the one the body is furthest over or in
+/// A column of soil within a body's reach, gathered once a step from surface, soil and particles. Heights are those of
+/// the plane through the column's vertex at the point where the body meets it.
+struct Footing {
+  std::uint32_t vertex = 0;
+  std::uint8_t material = 0;
+  bool carried = false;        ///< a body has it since the last step
+  double x = 0, y = 0;         ///< m: where the body meets it; at the vertex, but under the ball's lowest point there
+  Vec3 vertex_position;        ///< m
+  double above_vertex = 0;     ///< m, of the plane at x, y over the vertex
+  double height = 0;           ///< m: a body at or above it touches nothing
+  double fresh = 0;            ///< m: sinkage counts from here, less slack
+  double original = 0;         ///< m, before the first touch
+  double plastic = 0;          ///< m, permanent sinkage
+  double slack = 0;            ///< m the column stands too deep for its last pressure: gives no push
+  double area = 0, mass = 0;   ///< m^2, kg
+  double pull = 0, speed = 0;  ///< N, m/s: of the particle by its bonds, and upward
+  Vec3d shear;                 ///< m, shear displacement j
+  double load = 0;             ///< N, the push that the last pass of the solve found
+  Answer answer;               ///< likewise
+};
+
+/// A row from a body's velocity and spin to a speed at one contact.
+using Row = std::array<double, 6>;
+
+inline double dot6(const Row& a, const Row& b) {
+  double sum = 0;
+  for (int i = 0; i < 6; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// A column's answer to the body, with the geometry frozen where the body is expected to end the step.
+struct Contact {
+  std::uint32_t footing = 0;
+  Vec3d arm;              ///< from the body's centre, m
+  Vec3d tangent[2];       ///< unit, across the underside's normal
+  Row rise{};             ///< to the speed of the underside over the column, upward
+  Row slip[2]{};          ///< to the slip against the column along each tangent
+  double underside = 0;   ///< m, height where the geometry was frozen
+  double rise_there = 0;  ///< m/s, of the velocity it was frozen at
+  double slope = 1;       ///< length of the push's direction whose vertical part is 1
+  double grip = 0;        ///< N, largest shear force
+};
+
+/// Where a body has pressed one column to.
+struct Press {
+  std::uint32_t vertex = 0;
+  Vec3 position;       ///< of the surface at the end of the step, m
+  Vec3 shear;          ///< shear displacement j, m
+  float plastic = 0;   ///< m
+  float pressure = 0;  ///< Pa, by which it answered
 };
 
 /// Arrays the stage needs; they grow and stay. One set a body.
@@ -47,7 +86,8 @@ struct Scratch {
   struct PerBody {
     state::RegionScratch region;
     std::vector<std::uint32_t> found, previous, ring, next;
-    Ground ground;
+    std::vector<Footing> footings;
+    std::vector<Contact> contacts;
     std::vector<Press> presses, last;
   };
   std::vector<PerBody> bodies;
@@ -62,18 +102,18 @@ struct Situation {
   const state::Particles& particles;
   std::span<const laws::Medium> media;
   Vec3d gravity;
-  double dt = 0;                 ///< s
-  float ground_moved = 0;        ///< m, at least as far as ground that no body carries moved in the last step
-  UpdatePolicy policy;           ///< adaptive: half-edge walk from the last contact; otherwise the BVH is asked each step
+  double dt = 0;           ///< s
+  float ground_moved = 0;  ///< m, at least as far as ground that no body carries moved in the last step
+  UpdatePolicy policy;     ///< adaptive: half-edge walk from the last contact; otherwise the BVH is asked each step
 };
 
 /// Bodies meet the ground and each other and move on by dt. Vertices that a body touches for the first time, and those
 /// around them, are appended to `wake`.
-void move_bodies(std::span<state::Body> bodies, RigidBodies& rigid, const Situation& s, std::vector<std::uint32_t>& wake, Scratch& scratch,
-                 const Jobs& jobs);
+void move_bodies(std::span<state::Body> bodies, RigidBodies& rigid, const Situation& s,
+                 std::vector<std::uint32_t>& wake, Scratch& scratch, const Jobs& jobs);
 
 /// Particles under a body go where it pressed them, and the soil remembers. Every pressed vertex must be awake.
-void carry(std::span<state::Body> bodies, state::Particles& particles, state::Soil& soil, const state::Surface& surface, double dt,
-           const Scratch& scratch);
+void carry(std::span<state::Body> bodies, state::Particles& particles, state::Soil& soil, const state::Surface& surface,
+           double dt, const Scratch& scratch);
 
 }  // namespace divot::contact

@@ -4,8 +4,9 @@
 
 namespace divot::contact {
 
-/// Fills `ground` with what lies within this step's reach of the body, from the surface where it was never touched, from soil and
-/// particles where it was.
-void gather(const state::Body& body, const Situation& s, Ground& ground);
+/// Fills `footings` with the columns within this step's reach of the body, ascending by vertex. `last`: what it pressed
+/// in the last step.
+void gather(const state::Body& body, const Situation& s, const std::vector<Press>& last,
+            std::vector<Footing>& footings);
 
 }  // namespace divot::contact

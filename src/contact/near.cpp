@@ -6,13 +6,6 @@
 namespace divot::contact {
 namespace {
 
-// Could the body touch this vertex after moving by less than `reach`?
-bool could_touch(const state::Body& body, const Vec3& p, double reach) {
-  const double dx = p.x - body.position.x, dy = p.y - body.position.y, wide = body.radius + reach;
-  const double side = wide * wide - dx * dx - dy * dy;
-  return side >= 0 && p.z >= body.position.z - std::sqrt(side);
-}
-
 double horizontal_distance_squared(const state::Body& body, const Vec3& p) {
   const double dx = p.x - body.position.x, dy = p.y - body.position.y;
   return dx * dx + dy * dy;
@@ -33,9 +26,10 @@ std::uint32_t walk(const state::Body& body, const state::Surface& surface, std::
   return at;
 }
 
-// Every vertex within `reach` of the body's shadow that hangs together with `start` there, ascending. Ring by ring: what
-// a ring's neighbours meet again lies in that ring or the one before it.
-void flood(const state::Body& body, const state::Surface& surface, std::uint32_t start, double reach, Scratch::PerBody& scratch) {
+// Every vertex within `reach` of the body's shadow that hangs together with `start` there, ascending. Ring by ring:
+// what a ring's neighbours meet again lies in that ring or the one before it.
+void flood(const state::Body& body, const state::Surface& surface, std::uint32_t start, double reach,
+           Scratch::PerBody& scratch) {
   const double wide = (body.radius + reach) * (body.radius + reach);
   auto &found = scratch.found, &previous = scratch.previous, &ring = scratch.ring, &next = scratch.next;
   const auto has = [](const std::vector<std::uint32_t>& list, std::uint32_t u) {
@@ -60,7 +54,8 @@ void flood(const state::Body& body, const state::Surface& surface, std::uint32_t
   std::sort(found.begin(), found.end());
 }
 
-// A walk can be trusted where it ended under the body and the ground there hangs together: no hole or border cuts the shadow.
+// A walk can be trusted where it ended under the body and the ground there hangs together: no hole or border cuts the
+// shadow.
 bool shadow_is_whole(const state::Body& body, const state::Surface& surface, const std::vector<std::uint32_t>& found,
                      double reach) {
   const double edge = body.radius + reach;
@@ -78,13 +73,24 @@ Underside underside(const state::Body& body, const Vec3d& position, double x, do
   return {true, position.z - h, {dx / body.radius, dy / body.radius, -h / body.radius}};
 }
 
-void find_near(state::Body& body, const Situation& s, Scratch::PerBody& scratch) {
-  const double travel = length(body.velocity) * s.dt + length(s.gravity) * s.dt * s.dt;
-  const bool adaptive = s.policy.kind == UpdatePolicy::Kind::adaptive;
-  if (adaptive && body.near_left > 2 * travel) return;
+bool within_reach(const state::Body& body, const Vec3& p, double reach) {
+  const double dx = p.x - body.position.x, dy = p.y - body.position.y, wide = body.radius + reach;
+  const double side = wide * wide - dx * dx - dy * dy;
+  return side >= 0 && p.z >= body.position.z - std::sqrt(side);
+}
 
-  // What is found now serves for a few steps: for half a spacing of travel, or for what this step needs.
-  const double reach = adaptive ? std::max<double>(0.5 * s.surface.spacing, 4 * travel) : 2 * travel + s.ground_moved;
+double step_reach(const state::Body& body, const Situation& s) {
+  const double travel = length(body.velocity) * s.dt + length(s.gravity) * s.dt * s.dt;
+  return travel + 0.5 * s.surface.spacing;
+}
+
+void find_near(state::Body& body, const Situation& s, Scratch::PerBody& scratch) {
+  const bool adaptive = s.policy.kind == UpdatePolicy::Kind::adaptive;
+  const double needed = step_reach(body, s);
+  if (adaptive && body.near_left > needed) return;
+
+  // With the adaptive policy what is found now serves for a few steps more.
+  const double reach = needed + (adaptive ? std::max<double>(0.5 * s.surface.spacing, 3 * needed) : s.ground_moved);
   bool walked = false;
   if (adaptive && body.last_vertex != kNone) {
     const std::uint32_t below = walk(body, s.surface, body.last_vertex);
@@ -104,7 +110,7 @@ void find_near(state::Body& body, const Situation& s, Scratch::PerBody& scratch)
   }
   body.near.clear();
   for (const std::uint32_t v : scratch.found)
-    if (could_touch(body, s.surface.position[v], reach)) body.near.push_back(v);
+    if (within_reach(body, s.surface.position[v], reach)) body.near.push_back(v);
   body.near_left = reach;
 }
 

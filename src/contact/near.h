@@ -12,6 +12,13 @@ struct Underside {
 };
 Underside underside(const state::Body& body, const Vec3d& position, double x, double y);
 
+/// Could the body touch a vertex at `p` if both came nearer by `reach`, m?
+bool within_reach(const state::Body& body, const Vec3& p, double reach);
+
+/// How far a step reaches, m: what body and soil may travel in it, and the neighbour that the body's lowest point
+/// belongs to.
+double step_reach(const state::Body& body, const Situation& s);
+
 /// Brings body.near up to date: every vertex that the body can touch before body.near_left is used up.
 /// With the adaptive policy a body that touched before is followed by a walk over the half-edges from its last contact,
 /// which needs no hierarchy; others ask the BVH. Both find the same vertices.

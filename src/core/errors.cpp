@@ -1,6 +1,6 @@
-#include <fmt/format.h>
-
 #include "divot/errors.h"
+
+#include <fmt/format.h>
 
 namespace divot {
 

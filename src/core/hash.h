@@ -9,7 +9,10 @@ namespace divot::core {
 /// FNV-1a over 64-bit words: short, the same on every machine, and good enough to tell two states apart.
 class Hash {
  public:
-  void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001b3ull; value_ ^= value_ >> 29; }
+  void add(std::uint64_t word) {
+    value_ = (value_ ^ word) * 0x100000001b3ull;
+    value_ ^= value_ >> 29;
+  }
   void add(float number) {
     std::uint32_t bits;
     std::memcpy(&bits, &number, sizeof bits);

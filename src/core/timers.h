@@ -7,8 +7,8 @@
 
 namespace divot::core {
 
-/// Adds up wall time and calls by stage. A stage that runs inside another takes its time away from it, so that the sum is the
-/// whole. Nothing is allocated.
+/// Adds up wall time and calls by stage. A stage that runs inside another takes its time away from it, so that the sum
+/// is the whole. Nothing is allocated.
 template <std::size_t kCount>
 class Timers {
  public:

@@ -44,7 +44,8 @@ std::vector<Target> targets(const state::Blast& blast, double reach, const state
   return found;
 }
 
-// The ground faces the blast with the mean slope of what it pushes, so that one bump under the bomb does not turn the crater.
+// The ground faces the blast with the mean slope of what it pushes, so that one bump under the bomb does not turn the
+// crater.
 Vec3 into_ground(const state::Surface& surface, const std::vector<Target>& reached) {
   Vec3 sum;
   for (const Target& t : reached) sum += state::vertex_normal(surface, t.vertex);
@@ -74,8 +75,8 @@ void push_scaled(const Bomb& bomb, double height, state::Blast& blast, state::Su
     if (excess <= 0 && lands <= 0) continue;
     const std::uint32_t column = state::touch_column(surface, soil, t.vertex);
     if (excess > 0) {
-      // Flow against the drag d for a pulse T ends excess T / (2 d) deep, whatever its inertia. A push falling to 0 over the
-      // time P against a relaxation time 2 P ends push P^2 deep.
+      // Flow against the drag d for a pulse T ends excess T / (2 d) deep, whatever its inertia. A push falling to 0
+      // over the time P against a relaxation time 2 P ends push P^2 deep.
       const double deep = excess * laws::pulse(bomb.yield) / (2 * soil_here.blast_drag);
       blast.column.push_back(column);
       blast.push.push_back(static_cast<float>(deep / (blast.pulse * blast.pulse)));
@@ -106,11 +107,10 @@ void push_paper(const Bomb& bomb, double height, state::Blast& blast, state::Sur
 
 state::Blast detonate(const Bomb& bomb, Blast model, double time, double dt, state::Surface& surface, state::Soil& soil,
                       const geometry::Bvh& bvh, std::span<const laws::Medium> media, state::RegionScratch& scratch) {
-  // A pulse much shorter than the step is stretched to what the substeps can follow: the scaled crater does not depend on it.
-  state::Blast blast{.direction = {0, 0, -1},
-                     .yield = bomb.yield,
-                     .start = time,
-                     .pulse = std::max(laws::pulse(bomb.yield), dt / 8)};
+  // A pulse much shorter than the step is stretched to what the substeps can follow: the scaled crater does not depend
+  // on it.
+  state::Blast blast{
+      .direction = {0, 0, -1}, .yield = bomb.yield, .start = time, .pulse = std::max(laws::pulse(bomb.yield), dt / 8)};
   const Vec3 burst = to_float(bomb.position - surface.origin);
   const state::SurfacePoint ground = state::surface_at(surface, bvh, burst.x, burst.y, scratch);
   blast.ground_zero = ground.found ? ground.position : burst;

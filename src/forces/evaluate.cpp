@@ -36,11 +36,12 @@ Vec3 pair_force(std::size_t i, const state::Particles& p, const state::MotionVie
     const float r_squared = dot(apart, apart), r = std::sqrt(r_squared);
     if (r >= field.cutoff || r == 0) continue;
     const laws::Medium& medium = weaker(own, field.media[p.material[j]]);
-    const float cohesion =
-        field.cohesion == Cohesion::lennard_jones ? laws::lennard_jones(medium, r_squared, r0) : laws::mass_spring(medium, r, r0);
+    const float cohesion = field.cohesion == Cohesion::lennard_jones ? laws::lennard_jones(medium, r_squared, r0)
+                                                                     : laws::mass_spring(medium, r, r0);
     const float near = fade(r, field.cutoff), lighter = std::min(p.mass[i], p.mass[j]);
     const float soften = std::min(1.0f, lighter * field.resolution.stiffness_limit() / laws::lattice_stiffness(medium));
-    const float damping = std::min(medium.viscous_damping, lighter * field.resolution.damping_limit() / laws::kLatticeDamping);
+    const float damping =
+        std::min(medium.viscous_damping, lighter * field.resolution.damping_limit() / laws::kLatticeDamping);
     sum += (near * soften * cohesion) * apart;
     sum += laws::viscous_damping(near * damping, v_i, {m.vx[j], m.vy[j], m.vz[j]});
   }
@@ -53,7 +54,8 @@ Vec3 own_force(std::size_t i, const state::Particles& p, const state::MotionView
   const std::uint32_t column = p.column[i];
   const float area = field.soil.area[column];
   const Vec3 v{m.vx[i], m.vy[i], m.vz[i]};
-  // Soil that a blast has made flow has no skeleton left: it resists by drag alone, in the place of eq. 3, until it rests.
+  // Soil that a blast has made flow has no skeleton left: it resists by drag alone, in the place of eq. 3, until it
+  // rests.
   if (p.flow_rate[i] > 0) return laws::global_damping(p.mass[i] * p.flow_rate[i], v);
   const Vec3 force = laws::global_damping(medium.areal_damping * area, v);
   if (!medium.ground) return force;
@@ -65,7 +67,7 @@ void add_blast(state::Particles& p, const state::Blast& blast, const Field& fiel
   jobs.for_ranges(blast.column.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t i = field.soil.particle[blast.column[k]];
-      if (i == kNone || p.hold[i] != state::Hold::free) continue;
+      if (i == kNone || p.hold[i] != Hold::free) continue;
       const Vec3 force = (p.mass[i] * blast.push[k] * shape) * blast.direction;
       p.fx[i] += force.x, p.fy[i] += force.y, p.fz[i] += force.z;
     }
@@ -95,11 +97,14 @@ void yield_ground(std::size_t i, const state::Particles& p, state::Soil& soil, c
     return;
   }
   if (!medium.ground) return;
-  // Pressed onto Bekker's curve: sinkage stays, but for the elastic part. Pulled beyond cohesion: the column follows up.
-  const float fresh = soil.fresh_height(c), sunk = rest.z - p.z[i], stiffness = laws::held_stiffness(medium, resolution);
+  // Pressed onto Bekker's curve: sinkage stays, but for the elastic part. Pulled beyond cohesion: the column follows
+  // up.
+  const float fresh = soil.fresh_height(c), sunk = rest.z - p.z[i],
+              stiffness = laws::held_stiffness(medium, resolution);
   if (sunk > 0) {
     const float z = fresh - p.z[i];
-    const auto pressure = laws::ground_pressure(medium, z, soil.plastic[c], std::numeric_limits<float>::infinity(), stiffness);
+    const auto pressure =
+        laws::ground_pressure(medium, z, soil.plastic[c], std::numeric_limits<float>::infinity(), stiffness);
     if (pressure.yields) {
       soil.plastic[c] = z - pressure.value / stiffness;
       rest.z = fresh - soil.plastic[c];
@@ -125,16 +130,17 @@ void evaluate(state::Particles& p, const state::MotionView& motion, double time,
   jobs.for_ranges(p.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Vec3 force;
-      if (p.hold[i] != state::Hold::anchor) {
+      if (p.hold[i] != Hold::anchor) {
         force = pair_force(i, p, motion, field);
         p.held_pull[i] = force.z;
-        force = p.hold[i] == state::Hold::free ? force + own_force(i, p, motion, field) : Vec3{};
+        force = p.hold[i] == Hold::free ? force + own_force(i, p, motion, field) : Vec3{};
       }
       p.fx[i] = force.x, p.fy[i] = force.y, p.fz[i] = force.z;
     }
   });
   for (const state::Blast& blast : field.blasts)
-    if (const float shape = pulse_shape(blast, time); blast.active && shape > 0) add_blast(p, blast, field, shape, jobs);
+    if (const float shape = pulse_shape(blast, time); blast.active && shape > 0)
+      add_blast(p, blast, field, shape, jobs);
 }
 
 void yield(const state::Particles& p, state::Bonds& bonds, state::Soil& soil, std::span<const laws::Medium> media,
@@ -142,7 +148,7 @@ void yield(const state::Particles& p, state::Bonds& bonds, state::Soil& soil, st
   jobs.for_ranges(p.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       yield_bonds(i, p, bonds, media);
-      if (p.hold[i] == state::Hold::free) yield_ground(i, p, soil, media[p.material[i]], resolution);
+      if (p.hold[i] == Hold::free) yield_ground(i, p, soil, media[p.material[i]], resolution);
     }
   });
 }

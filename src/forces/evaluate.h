@@ -6,8 +6,8 @@
 #include "divot/jobs.h"
 #include "divot/settings.h"
 #include "laws/ground.h"
-#include "state/blasts.h"
 #include "laws/medium.h"
+#include "state/blasts.h"
 #include "state/motion.h"
 #include "state/particles.h"
 #include "state/soil.h"
@@ -32,12 +32,13 @@ struct Field {
 
 /// Forces at `time`, s, for particles that are where `motion` says. Particles held by a body or as anchors get none;
 /// `held_pull` keeps what cohesion does to those a body carries.
-void evaluate(state::Particles& particles, const state::MotionView& motion, double time, const Field& field, const Jobs& jobs);
+void evaluate(state::Particles& particles, const state::MotionView& motion, double time, const Field& field,
+              const Jobs& jobs);
 
-/// Lets what was strained too far flow: bonds take a new rest length beyond their yield strain, soil on Bekker's curve keeps its
-/// sinkage, soil pulled or sheared beyond its strength follows. Called after each substep.
-void yield(const state::Particles& particles, state::Bonds& bonds, state::Soil& soil, std::span<const laws::Medium> media,
-           const laws::Resolution& resolution, const Jobs& jobs);
+/// Lets what was strained too far flow: bonds take a new rest length beyond their yield strain, soil on Bekker's curve
+/// keeps its sinkage, soil pulled or sheared beyond its strength follows. Called after each substep.
+void yield(const state::Particles& particles, state::Bonds& bonds, state::Soil& soil,
+           std::span<const laws::Medium> media, const laws::Resolution& resolution, const Jobs& jobs);
 
 /// Shape of a blast's pressure pulse at `time`: 1 falling linearly to 0 over the pulse.
 float pulse_shape(const state::Blast& blast, double time);

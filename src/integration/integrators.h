@@ -21,12 +21,13 @@ using Forces = std::function<ForceView(const state::MotionView& motion, double t
 
 /// Arrays the integrators need; they grow to the number of particles and stay.
 struct Scratch {
-  state::Motion trial;       ///< where stages of RK4 are evaluated
-  state::Motion sum;         ///< weighted sum of the stages' slopes
+  state::Motion trial;  ///< where stages of RK4 are evaluated
+  state::Motion sum;    ///< weighted sum of the stages' slopes
 };
 
 /// Semi-implicit Euler: velocity from the force, then position from the new velocity. Order 1.
-void euler(const state::MotionView& motion, std::span<const float> mass, double time, double h, const Forces& forces, const Jobs& jobs);
+void euler(const state::MotionView& motion, std::span<const float> mass, double time, double h, const Forces& forces,
+           const Jobs& jobs);
 
 /// Classical Runge-Kutta of order 4: four evaluations of the forces.
 void rk4(const state::MotionView& motion, std::span<const float> mass, double time, double h, const Forces& forces,

@@ -38,7 +38,9 @@ void rk4(const state::MotionView& m, std::span<const float> mass, double time, d
   });
 
   // Stage k is evaluated `at` into the step, weighs w / 6 and sends the trial `step` from the start for stage k + 1.
-  struct Stage { float at, weight, step; };
+  struct Stage {
+    float at, weight, step;
+  };
   constexpr Stage kStages[] = {{0, 1, 0.5f}, {0.5f, 2, 0.5f}, {0.5f, 2, 1}, {1, 1, 0}};
   for (const Stage& stage : kStages) {
     const ForceView f = forces(t, time + stage.at * h);

@@ -20,13 +20,14 @@ Real bekker_pressure(const Medium& s, Real z, Real b) {
 /// Pressure and its slope against sinkage.
 template <class Real>
 struct Pressure {
-  Real value = 0;      ///< Pa
-  Real slope = 0;      ///< Pa/m
-  bool yields = false; ///< on Bekker's curve: sinkage becomes permanent
+  Real value = 0;       ///< Pa
+  Real slope = 0;       ///< Pa/m
+  bool yields = false;  ///< on Bekker's curve: sinkage becomes permanent
 };
 
-/// Pressure at sinkage z of soil that has sunk by `plastic` for good: elastic from there until Bekker's curve is met again.
-/// Where Bekker's curve starts infinitely steep (n < 1) or is stiffer than the elastic branch, the elastic branch leads.
+/// Pressure at sinkage z of soil that has sunk by `plastic` for good: elastic from there until Bekker's curve is met
+/// again. Where Bekker's curve starts infinitely steep (n < 1) or is stiffer than the elastic branch, the elastic
+/// branch leads.
 template <class Real>
 Pressure<Real> ground_pressure(const Medium& s, Real z, Real plastic, Real b, Real elastic_stiffness) {
   const Real elastic = elastic_stiffness * (z - plastic);
@@ -38,11 +39,15 @@ Pressure<Real> ground_pressure(const Medium& s, Real z, Real plastic, Real b, Re
 
 /// Largest shear stress at normal pressure p, Pa. [Mohr-Coulomb]
 template <class Real>
-Real shear_strength(const Medium& s, Real p) { return s.cohesion + p * s.tan_friction; }
+Real shear_strength(const Medium& s, Real p) {
+  return s.cohesion + p * s.tan_friction;
+}
 
 /// Share of the strength that shear displacement j mobilises. [Janosi & Hanamoto 1961]
 template <class Real>
-Real mobilised_shear(const Medium& s, Real j) { return 1 - std::exp(-j / Real(s.shear_modulus)); }
+Real mobilised_shear(const Medium& s, Real j) {
+  return 1 - std::exp(-j / Real(s.shear_modulus));
+}
 
 /// Beyond this many K of shear displacement the soil slides: 95 % of the strength is mobilised there.
 inline constexpr float kSlideShear = 3;

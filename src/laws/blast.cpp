@@ -9,14 +9,17 @@ namespace {
 
 using std::numbers::pi;
 
-// The scaled model's virtual source stands this many crater radii over ground zero. Lower makes the crater a cone, higher a
-// disc; here it is close to the paraboloid that craters are measured as [Glasstone & Dolan 1977].
+// The scaled model's virtual source stands this many crater radii over ground zero. Lower makes the crater a cone,
+// higher a disc; here it is close to the paraboloid that craters are measured as [Glasstone & Dolan 1977].
 constexpr double kScaledHeight = 1.5;
-// Share of the height of burst that raises the virtual source: craters end at about 0.55 m/kg^(1/3) (an engineering guess).
+// Share of the height of burst that raises the virtual source: craters end at about 0.55 m/kg^(1/3) (an engineering
+// guess).
 constexpr double kBurstShare = 0.81;
-// The paper's model: lowest virtual source, in crater widths. Sets how far out the sheet's edge (5 % of the depth) lies.
-constexpr double kPaperHeight = 0.25;
-// Mass of the paper's crater: 98 particles of 1 kg. Eq. 13 divides a pressure by a volume, so eq. 14 does not scale by itself.
+// The paper's model: lowest virtual source, in crater widths. Sets how far out the sheet's edge (5 % of the depth)
+// lies.
+constexpr double kPaperHeight = 0.265;
+// Mass of the paper's crater: 98 particles of 1 kg. Eq. 13 divides a pressure by a volume, so eq. 14 does not scale by
+// itself.
 constexpr double kPaperMass = 98;
 
 double fall_off(double x) { return 4.0 / 3 * pi * x * x * x; }
@@ -35,7 +38,9 @@ double total_pressure(double yield) {
 double pulse(double yield) { return kReferencePulse * std::cbrt(yield); }
 double charge_radius(double yield) { return std::cbrt(1000 * yield / (4.0 / 3 * pi * kTntDensity)); }
 double pressure_at(double total, double x, double radius) { return total / fall_off(std::max(x, radius)); }
-double particle_force(double pressure, double width, double count) { return pressure * pi * width * width / (4 * count); }
+double particle_force(double pressure, double width, double count) {
+  return pressure * pi * width * width / (4 * count);
+}
 
 double Source::distance(double radius, double above) const { return std::hypot(radius, height - above); }
 

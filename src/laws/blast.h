@@ -4,11 +4,11 @@ namespace divot::laws {
 
 // The source: eq. 8-12 of the paper. Yields N in metric tons of TNT, pressures in Pa.
 
-inline constexpr double kAtmosphere = 101325;            ///< Pa
-inline constexpr double kReferenceShock_dB = 210.6;      ///< shock pressure of one ton of TNT
-inline constexpr double kReferenceWidth = 7.13232;       ///< crater width of one ton of TNT, m
-inline constexpr double kTntDensity = 1654;              ///< kg/m^3
-inline constexpr double kReferencePulse = 2.5e-3;        ///< s, duration of the pressure of one ton: 0.25 ms/kg^(1/3)
+inline constexpr double kAtmosphere = 101325;        ///< Pa
+inline constexpr double kReferenceShock_dB = 210.6;  ///< shock pressure of one ton of TNT
+inline constexpr double kReferenceWidth = 7.13232;   ///< crater width of one ton of TNT, m
+inline constexpr double kTntDensity = 1654;          ///< kg/m^3
+inline constexpr double kReferencePulse = 2.5e-3;    ///< s, duration of the pressure of one ton: 0.25 ms/kg^(1/3)
 
 /// Eq. 8 and its inverse.
 double to_decibel(double pressure);
@@ -41,11 +41,13 @@ struct Source {
   double distance(double radius, double above) const;
 };
 
-/// Cube-root scaled model. Soil fails where the pressure exceeds its blast strength; the crater's radius follows from the strength.
-/// Radius of the failing ground for a burst at `height_of_burst`, m; 0 where it is too high to break the ground.
+/// Cube-root scaled model. Soil fails where the pressure exceeds its blast strength; the crater's radius follows from
+/// the strength. Radius of the failing ground for a burst at `height_of_burst`, m; 0 where it is too high to break the
+/// ground.
 double scaled_radius(double yield, double strength, double height_of_burst);
 Source scaled_source(double yield, double strength, double height_of_burst);
-/// Pressure of the scaled model into the ground, Pa: eq. 13 with Hopkinson's scaled distance, times the cosine of incidence.
+/// Pressure of the scaled model into the ground, Pa: eq. 13 with Hopkinson's scaled distance, times the cosine of
+/// incidence.
 double scaled_pressure(const Source& source, double distance, double cosine);
 
 /// The paper's model: virtual source no lower than a share of the crater's width.

@@ -7,8 +7,8 @@
 
 namespace divot::laws {
 
-/// The fastest motion that a substep can follow. Whatever would be faster is softened: a free particle is held in its place by a
-/// softer hold as well.
+/// The fastest motion that a substep can follow. Whatever would be faster is softened: a free particle is held in its
+/// place by a softer hold as well.
 struct Resolution {
   float rate = 0;  ///< 1/s
 
@@ -22,8 +22,8 @@ inline float held_stiffness(const Medium& s, const Resolution& resolution) {
   return std::min(s.elastic_stiffness, resolution.stiffness_limit() * s.areal_mass);
 }
 
-/// Traction of the ground on a free particle, Pa: displacement from where its column is at rest, velocity, permanent sinkage.
-/// Pressed, it answers by Bekker; pulled, it holds by cohesion; pushed sideways, by Janosi's shear.
+/// Traction of the ground on a free particle, Pa: displacement from where its column is at rest, velocity, permanent
+/// sinkage. Pressed, it answers by Bekker; pulled, it holds by cohesion; pushed sideways, by Janosi's shear.
 inline Vec3 ground_traction(const Medium& s, const Vec3& from_rest, const Vec3& velocity, float plastic,
                             const Resolution& resolution) {
   const float stiffness = held_stiffness(s, resolution);

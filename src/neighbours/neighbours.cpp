@@ -1,7 +1,10 @@
 #include "neighbours/neighbours.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+
+#include "math/aabb.h"
 
 namespace divot::neighbours {
 namespace {
@@ -13,43 +16,57 @@ float distance_squared(const state::Particles& p, std::size_t i, std::size_t j) 
   return (dx * dx + dy * dy) + dz * dz;
 }
 
-// Has any particle moved more than half the skin since the rows were built?
+// Could two particles have come nearer to each other by more than the skin since the rows were built? Only motion
+// against each other counts: what all have in common, half the extent of their displacements, is taken off first.
 bool has_drifted(const state::Particles& p, const Index& index, float skin) {
-  const float limit = skin * skin / 4;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const float dx = p.x[i] - index.x[i], dy = p.y[i] - index.y[i], dz = p.z[i] - index.z[i];
-    if (dx * dx + dy * dy + dz * dz > limit) return true;
-  }
-  return false;
+  math::Aabb moved;
+  for (std::size_t i = 0; i < p.size(); ++i) moved.include(p.position(i) - Vec3{index.x[i], index.y[i], index.z[i]});
+  return p.size() > 0 && length(moved.high - moved.low) > skin;
 }
 
 bool is_due(const state::Particles& p, const Index& index, const Reach& reach, bool particles_changed) {
   if (particles_changed) return true;
   switch (reach.policy.kind) {
-    case UpdatePolicy::Kind::every_step: return true;
-    case UpdatePolicy::Kind::every: return index.steps_since_build >= static_cast<std::uint64_t>(reach.policy.steps);
-    case UpdatePolicy::Kind::adaptive: return has_drifted(p, index, reach.skin);
+    case UpdatePolicy::Kind::every_step:
+      return true;
+    case UpdatePolicy::Kind::every:
+      return index.steps_since_build >= static_cast<std::uint64_t>(reach.policy.steps);
+    case UpdatePolicy::Kind::adaptive:
+      return has_drifted(p, index, reach.skin);
   }
   return true;
 }
 
-// Rest lengths move from the old rows to the new ones, found by vertex: both lists ascend.
-void carry_rest_lengths(const Index& index, state::Bonds& bonds, const Jobs& jobs) {
-  jobs.for_ranges(index.vertex.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+// Row of a vertex in the rows before; their number where it has none.
+std::size_t old_row_of(const Index& index, std::uint32_t vertex) {
+  const auto found = std::lower_bound(index.old_vertex.begin(), index.old_vertex.end(), vertex);
+  const bool is_there = found != index.old_vertex.end() && *found == vertex;
+  return is_there ? static_cast<std::size_t>(found - index.old_vertex.begin()) : index.old_vertex.size();
+}
+
+// Rest lengths move from the old rows to the new ones, found by vertex: both ascend. Returns how many pairs are in
+// range now that the old rows should have held and did not, each counted once.
+std::uint64_t carry_rest_lengths(const state::Particles& p, const Index& index, state::Bonds& bonds, float cutoff,
+                                 const Jobs& jobs) {
+  std::atomic<std::uint64_t> missed = 0;
+  const bool same_rows = index.vertex == index.old_vertex;
+  jobs.for_ranges(p.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const auto found = std::lower_bound(index.old_vertex.begin(), index.old_vertex.end(), index.vertex[i]);
-      if (found == index.old_vertex.end() || *found != index.vertex[i]) continue;
-      const auto old_row = static_cast<std::size_t>(found - index.old_vertex.begin());
+      const std::size_t old_row = same_rows ? i : old_row_of(index, index.vertex[i]);
+      if (old_row == index.old_vertex.size()) continue;
       std::uint32_t old = index.old_bonds.start[old_row];
       const std::uint32_t old_end = index.old_bonds.start[old_row + 1];
       for (std::uint32_t e = bonds.start[i]; e < bonds.start[i + 1]; ++e) {
-        const std::uint32_t wanted = index.vertex[bonds.neighbour[e]];
+        const std::uint32_t j = bonds.neighbour[e], wanted = index.vertex[j];
         while (old < old_end && index.old_vertex[index.old_bonds.neighbour[old]] < wanted) ++old;
         if (old < old_end && index.old_vertex[index.old_bonds.neighbour[old]] == wanted)
           bonds.rest_length[e] = index.old_bonds.rest_length[old];
+        else if (i < j && distance_squared(p, i, j) < cutoff * cutoff)
+          missed += same_rows || old_row_of(index, wanted) < index.old_vertex.size();
       }
     }
   });
+  return missed;
 }
 
 void rebuild(const state::Particles& p, state::Bonds& bonds, Index& index, const Reach& reach, const Jobs& jobs) {
@@ -70,44 +87,25 @@ void rebuild(const state::Particles& p, state::Bonds& bonds, Index& index, const
   bonds.start = index.rows.start;
   bonds.neighbour = index.rows.index;
   bonds.rest_length.assign(bonds.neighbour.size(), 0);
-  carry_rest_lengths(index, bonds, jobs);
+  // Rows a single step old can miss nothing that matters: a pair bonds in the step in which it comes into range.
+  const std::uint64_t missed = carry_rest_lengths(p, index, bonds, reach.cutoff, jobs);
+  if (index.steps_since_build > 1) index.missed_pairs += missed;
   index.steps_since_build = 0;
   ++index.rebuilds;
-}
-
-// Pairs that are in range although the rows of the steps before did not hold them, each counted once.
-std::uint64_t count_missed(const state::Particles& p, const state::Bonds& bonds, const Index& index, float cutoff) {
-  std::uint64_t missed = 0;
-  const auto row_of = [&](std::uint32_t vertex) {
-    return std::lower_bound(index.old_vertex.begin(), index.old_vertex.end(), vertex) - index.old_vertex.begin();
-  };
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const auto row = static_cast<std::size_t>(row_of(p.vertex[i]));
-    if (row >= index.old_vertex.size() || index.old_vertex[row] != p.vertex[i]) continue;
-    const auto first = index.old_bonds.neighbour.begin() + index.old_bonds.start[row];
-    const auto last = index.old_bonds.neighbour.begin() + index.old_bonds.start[row + 1];
-    for (std::uint32_t e = bonds.start[i]; e < bonds.start[i + 1]; ++e) {
-      const std::uint32_t j = bonds.neighbour[e];
-      if (j < i || distance_squared(p, i, j) >= cutoff * cutoff) continue;
-      const auto old_j = static_cast<std::size_t>(row_of(p.vertex[j]));
-      if (old_j >= index.old_vertex.size() || index.old_vertex[old_j] != p.vertex[j]) continue;
-      missed += !std::binary_search(first, last, static_cast<std::uint32_t>(old_j));
-    }
-  }
-  return missed;
 }
 
 void form_and_break(const state::Particles& p, state::Bonds& bonds, float cutoff, const Jobs& jobs) {
   jobs.for_ranges(p.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      if (p.hold[i] == Hold::anchor) continue;  // nobody asks what an anchor feels
       for (std::uint32_t e = bonds.start[i]; e < bonds.start[i + 1]; ++e) {
         const std::uint32_t j = bonds.neighbour[e];
-        const float r = std::sqrt(distance_squared(p, i, j));
+        const float r_squared = distance_squared(p, i, j);
         // Soil that flows holds together no more; it bonds anew, in its new shape, when it has come to rest.
-        if (r >= cutoff || p.flow_rate[i] > 0 || p.flow_rate[j] > 0)
+        if (r_squared >= cutoff * cutoff || p.flow_rate[i] > 0 || p.flow_rate[j] > 0)
           bonds.rest_length[e] = 0;
         else if (bonds.rest_length[e] == 0)
-          bonds.rest_length[e] = r;
+          bonds.rest_length[e] = std::sqrt(r_squared);
       }
     }
   });
@@ -115,15 +113,10 @@ void form_and_break(const state::Particles& p, state::Bonds& bonds, float cutoff
 
 }  // namespace
 
-void update(const state::Particles& particles, state::Bonds& bonds, Index& index, const Reach& reach, bool particles_changed,
-            const Jobs& jobs) {
+void update(const state::Particles& particles, state::Bonds& bonds, Index& index, const Reach& reach,
+            bool particles_changed, const Jobs& jobs) {
   ++index.steps_since_build;
-  if (is_due(particles, index, reach, particles_changed)) {
-    // Rows a single step old can miss nothing that matters: a pair bonds in the step in which it comes into range.
-    const bool were_stale = index.steps_since_build > 1;
-    rebuild(particles, bonds, index, reach, jobs);
-    if (were_stale) index.missed_pairs += count_missed(particles, bonds, index, reach.cutoff);
-  }
+  if (is_due(particles, index, reach, particles_changed)) rebuild(particles, bonds, index, reach, jobs);
   form_and_break(particles, bonds, reach.cutoff, jobs);
 }
 

@@ -19,8 +19,8 @@ namespace divot::neighbours {
 
 /// When rows are rebuilt and how far they reach, m.
 struct Reach {
-  float cutoff = 0;      ///< range of cohesion
-  float skin = 0;        ///< more than that, so that rows hold every pair in range until one particle has moved half of it
+  float cutoff = 0;  ///< range of cohesion
+  float skin = 0;    ///< more than that, so that rows hold every pair in range until two have come nearer by that much
   Neighbours structure = Neighbours::grid;
   UpdatePolicy policy;
 };
@@ -30,17 +30,17 @@ struct Index {
   geometry::KdTree kd_tree;
   geometry::ColumnGrid grid;
   geometry::Rows rows;
-  std::vector<float> x, y, z;                ///< [particle] where it was when rows were built, m
-  std::vector<std::uint32_t> vertex;         ///< [particle] of the rows, ascending
-  std::vector<std::uint32_t> old_vertex;     ///< the same of the rows before
+  std::vector<float> x, y, z;             ///< [particle] where it was when rows were built, m
+  std::vector<std::uint32_t> vertex;      ///< [particle] of the rows, ascending
+  std::vector<std::uint32_t> old_vertex;  ///< the same of the rows before
   state::Bonds old_bonds;
   std::uint64_t steps_since_build = 0;
   std::uint64_t rebuilds = 0, missed_pairs = 0;
 };
 
-/// Brings the rows up to date as the policy says (always when the set of particles changed), then lets bonds form between pairs that
-/// came into range, at rest as they are, and break where a pair left it.
-void update(const state::Particles& particles, state::Bonds& bonds, Index& index, const Reach& reach, bool particles_changed,
-            const Jobs& jobs);
+/// Brings the rows up to date as the policy says (always when the set of particles changed), then lets bonds form
+/// between pairs that came into range, at rest as they are, and break where a pair left it.
+void update(const state::Particles& particles, state::Bonds& bonds, Index& index, const Reach& reach,
+            bool particles_changed, const Jobs& jobs);
 
 }  // namespace divot::neighbours

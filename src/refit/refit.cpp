@@ -26,7 +26,8 @@ void update(Tree& tree, const state::Surface& surface, const std::vector<std::ui
             const UpdatePolicy& policy, const Jobs& jobs) {
   ++tree.steps;
   if (policy.kind != UpdatePolicy::Kind::adaptive) {
-    const bool due = policy.kind == UpdatePolicy::Kind::every_step || tree.steps % static_cast<std::uint64_t>(policy.steps) == 0;
+    const bool due =
+        policy.kind == UpdatePolicy::Kind::every_step || tree.steps % static_cast<std::uint64_t>(policy.steps) == 0;
     if (due) build(tree, surface, jobs);
     return;
   }

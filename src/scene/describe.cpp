@@ -161,7 +161,9 @@ void describe_solver(Visitor& v, Settings& solver) {
            solver.integrator);
   v.choice({.name = "neighbours", .meaning = "search structure; both give the same rows"}, kNeighbours,
            solver.neighbours);
-  v.policy({.name = "neighbour_update", .meaning = "when neighbour rows are rebuilt"}, solver.neighbour_update);
+  v.policy(
+      {.name = "neighbour_update", .meaning = "when neighbour rows are rebuilt; its steps are those of integration"},
+      solver.neighbour_update);
   v.policy({.name = "bvh_update", .meaning = "when the bounding volumes are brought up to date"}, solver.bvh_update);
   v.number({.name = "cutoff", .unit = "spacings", .range = between(1.1, 4), .meaning = "range of cohesion"},
            solver.cutoff);
@@ -241,7 +243,7 @@ void describe_ground(Visitor& v, Material& m) {
       m.elastic_stiffness);
   v.number({.name = "ground_damping_ratio",
             .range = between(0, 100),
-            .meaning = "of the ground under a free particle; 1 is critical"},
+            .meaning = "of the ground under particles and bodies; 1 is critical"},
            m.ground_damping_ratio);
   v.number({.name = "cohesion", .unit = "Pa", .range = between(0, kHeavy), .meaning = "Mohr and Coulomb's c"},
            m.cohesion);

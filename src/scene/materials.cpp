@@ -86,10 +86,12 @@ Material material_of(const Soil& soil) {
   // As stiff as that bond at rest: e0 m n / r0^2.
   m.spring_stiffness = 8 * m.dissociation_energy;
   m.yield_strain = soil.yield_strain;
-  // The damping ratio and the rate of the paper's 2 N s/m and 2 kg/s.
+  // The damping ratio and the rate of the paper's medium.
   m.viscous_damping = paper.viscous_damping *
                       std::sqrt(m.spring_stiffness / paper.spring_stiffness * m.particle_mass / paper.particle_mass);
   m.global_damping = paper.global_damping * m.particle_mass / paper.particle_mass;
+  // Waves that carry energy away from a loaded patch: a tenth to a half of critical in footings on soil.
+  m.ground_damping_ratio = 0.3;
   m.bekker_kc = soil.kc;
   m.bekker_kphi = soil.kphi;
   m.bekker_n = soil.n;

@@ -3,26 +3,29 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace divot::settle {
 namespace {
 
-void move_surface(const state::Particles& p, state::Surface& surface, Moved& moved) {
+// Moves the surface with its particles and counts for how long each has been still: by its speed, or because it has not
+// come further than that speed would bring it. Far from the origin a creep can be too slow for a float to take a step.
+void move_surface(state::Particles& p, state::Surface& surface, const Stillness& stillness, Moved& moved) {
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (p.hold[i] == state::Hold::anchor) continue;
+    if (p.hold[i] == Hold::anchor) continue;
     Vec3& place = surface.position[p.vertex[i]];
     const float step = length(p.position(i) - place);
+    const bool still = length(p.velocity(i)) < stillness.speed || step < stillness.step;
+    p.still_steps[i] = still ? static_cast<std::uint16_t>(std::min(p.still_steps[i] + 1, 0xffff)) : std::uint16_t{0};
     if (step == 0) continue;
     place = p.position(i);
     moved.vertices.push_back(p.vertex[i]);
     moved.distance = std::max(moved.distance, step);
-    if (p.hold[i] == state::Hold::free) moved.free_distance = std::max(moved.free_distance, step);
+    if (p.hold[i] == Hold::free) moved.free_distance = std::max(moved.free_distance, step);
   }
 }
 
 // Soil that a blast drove down in this step: a share of it is thrown, the rest is compacted.
-double throw_soil(const state::Blast& blast, const state::Particles& p, const state::Surface& surface, state::Soil& soil,
-                  std::span<const laws::Medium> media) {
+double throw_soil(const state::Blast& blast, const state::Particles& p, const state::Surface& surface,
+                  state::Soil& soil, std::span<const laws::Medium> media) {
   double volume = 0;
   if (blast.landing.empty()) return volume;
   for (const std::uint32_t column : blast.column) {
@@ -43,10 +46,8 @@ void land_soil(const state::Blast& blast, float volume, state::Particles& p, sta
     const float height = volume * blast.landing_height[k];
     soil.added[column] += height;
     soil.rest[column].z += height;
-    if (i != kNone) {
-      p.z[i] += height;
-      continue;
-    }
+    if (i != kNone) p.z[i] += height;
+    if (i != kNone && p.hold[i] != Hold::anchor) continue;  // its surface follows below
     surface.position[soil.vertex[column]].z += height;
     moved.vertices.push_back(soil.vertex[column]);
     moved.distance = std::max(moved.distance, height);
@@ -54,12 +55,12 @@ void land_soil(const state::Blast& blast, float volume, state::Particles& p, sta
   }
 }
 
-// A blast is over when its pulse is and nothing it pushed flows any more.
-bool still_flows(const state::Blast& blast, const state::Particles& p, const state::Soil& soil, double time) {
+// A blast is over when its pulse is and what it pushed has come to rest.
+bool still_acts(const state::Blast& blast, const state::Particles& p, const state::Soil& soil, double time) {
   if (time < blast.start + blast.pulse) return true;
   return std::any_of(blast.column.begin(), blast.column.end(), [&](std::uint32_t column) {
     const std::uint32_t i = soil.particle[column];
-    return i != kNone && p.flow_rate[i] > 0;
+    return i != kNone && p.hold[i] == Hold::free;
   });
 }
 
@@ -81,19 +82,17 @@ void update(state::Particles& p, state::Soil& soil, state::Surface& surface, std
     const double thrown = throw_soil(blast, p, surface, soil, media);
     if (thrown > 0) land_soil(blast, static_cast<float>(thrown), p, surface, soil, moved);
   }
-  move_surface(p, surface, moved);
+  move_surface(p, surface, stillness, moved);
 
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (p.hold[i] != state::Hold::free) continue;
-    const bool still = length(p.velocity(i)) < stillness.speed;
-    p.still_steps[i] = still ? static_cast<std::uint16_t>(std::min(p.still_steps[i] + 1, 0xffff)) : std::uint16_t{0};
+    if (p.hold[i] != Hold::free) continue;
     if (p.still_steps[i] < stillness.steps) continue;
-    p.hold[i] = state::Hold::asleep;
+    p.hold[i] = Hold::asleep;
     p.flow_rate[i] = 0;
     p.set_velocity(i, {});
     hand_over(p, i, soil);
   }
-  for (state::Blast& blast : blasts) blast.active = blast.active && still_flows(blast, p, soil, time);
+  for (state::Blast& blast : blasts) blast.active = blast.active && still_acts(blast, p, soil, time);
 }
 
 }  // namespace divot::settle

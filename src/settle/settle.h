@@ -25,14 +25,15 @@ struct Moved {
   float free_distance = 0;              ///< m, the furthest of those no body carried
 };
 
-/// A particle slower than this for so many steps goes to sleep.
+/// A particle slower than this, or that moves less than this in each step, for so many steps goes to sleep.
 struct Stillness {
   float speed = 0;  ///< m/s
+  float step = 0;   ///< m
   std::uint16_t steps = 1;
 };
 
-/// Moves the surface with its particles. Those that go to sleep give up their elastic rest: where they are is where the ground
-/// now stands.
+/// Moves the surface with its particles. Those that go to sleep give up their elastic rest: where they are is where the
+/// ground now stands.
 void update(state::Particles& particles, state::Soil& soil, state::Surface& surface, std::vector<state::Blast>& blasts,
             std::span<const laws::Medium> media, const Stillness& stillness, double time, Moved& moved);
 

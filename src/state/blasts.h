@@ -9,12 +9,12 @@ namespace divot::state {
 
 /// A bomb that went off: what it still does to the ground, and what it did.
 struct Blast {
-  Vec3 ground_zero;      ///< m, on the ground, relative to the surface's origin
-  Vec3 direction;        ///< unit, into the ground: what the pressure pushes along
-  double yield = 0;      ///< t of TNT
-  double start = 0;      ///< s, of the step in which it went off
-  double pulse = 0;      ///< s, duration of the pressure pulse, which falls linearly to 0
-  float flow_rate = 0;   ///< 1/s, drag of the ground it makes flow; 0: the ground keeps its skeleton
+  Vec3 ground_zero;     ///< m, on the ground, relative to the surface's origin
+  Vec3 direction;       ///< unit, into the ground: what the pressure pushes along
+  double yield = 0;     ///< t of TNT
+  double start = 0;     ///< s, of the step in which it went off
+  double pulse = 0;     ///< s, duration of the pressure pulse, which falls linearly to 0
+  float flow_rate = 0;  ///< 1/s, drag of the ground it makes flow; 0: the ground keeps its skeleton
 
   // Ground that fails, ascending by vertex.
   std::vector<std::uint32_t> column;  ///< [pushed]

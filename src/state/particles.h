@@ -4,30 +4,25 @@
 #include <vector>
 
 #include "divot/vec.h"
+#include "divot/views.h"
 
 namespace divot::state {
 
-/// What may move a particle.
-enum class Hold : std::uint8_t {
-  free,     ///< forces
-  carried,  ///< the body that presses on it: velocity is given for this step
-  anchor,   ///< nothing: it stands at the border of the awake ground
-  asleep,   ///< nothing: it has been still and leaves in the next step
-};
+using divot::Hold;
 
-/// The surface particle system: every vertex that is awake, and the ring of anchors around them, ascending by vertex so that rows
-/// near in memory are near on the ground.
+/// The surface particle system: every vertex that is awake, and the ring of anchors around them, ascending by vertex so
+/// that rows near in memory are near on the ground.
 struct Particles {
   std::vector<std::uint32_t> vertex, column;  ///< [particle] ; activation/
   std::vector<float> x, y, z;                 ///< [particle] m, relative to the surface's origin; integration/
   std::vector<float> vx, vy, vz;              ///< [particle] m/s; integration/
   std::vector<float> fx, fy, fz;              ///< [particle] N, at the last evaluation; forces/
   std::vector<float> mass;                    ///< [particle] kg; activation/
-  std::vector<float> flow_rate;               ///< [particle] 1/s, drag of soil that a blast has made flow, 0 otherwise; events/
-  std::vector<float> held_pull;               ///< [particle] N, vertical cohesion on it when last evaluated; forces/
-  std::vector<std::uint8_t> material;         ///< [particle] ; activation/
-  std::vector<Hold> hold;                     ///< [particle] ; activation/, contact/
-  std::vector<std::uint16_t> still_steps;     ///< [particle] steps it has been still; settle/
+  std::vector<float> flow_rate;  ///< [particle] 1/s, drag of soil that a blast has made flow, 0 otherwise; events/
+  std::vector<float> held_pull;  ///< [particle] N, vertical cohesion on it when last evaluated; forces/
+  std::vector<std::uint8_t> material;      ///< [particle] ; activation/
+  std::vector<Hold> hold;                  ///< [particle] ; activation/, contact/
+  std::vector<std::uint16_t> still_steps;  ///< [particle] steps it has been still; settle/
   std::size_t size() const { return vertex.size(); }
 
   Vec3 position(std::size_t i) const { return {x[i], y[i], z[i]}; }
@@ -38,16 +33,16 @@ struct Particles {
   /// Calls f(column_array) for every array, so that rows are added, moved and dropped in one place.
   template <class F>
   void for_each_array(F f) {
-    f(vertex), f(column), f(x), f(y), f(z), f(vx), f(vy), f(vz), f(fx), f(fy), f(fz), f(mass), f(flow_rate), f(held_pull),
-        f(material), f(hold), f(still_steps);
+    f(vertex), f(column), f(x), f(y), f(z), f(vx), f(vy), f(vz), f(fx), f(fy), f(fz), f(mass), f(flow_rate),
+        f(held_pull), f(material), f(hold), f(still_steps);
   }
 };
 
 /// Cohesion between particles: rows of neighbours and, for each, the length at which it is at rest.
 struct Bonds {
-  std::vector<std::uint32_t> start;        ///< [particle + 1] first entry of each row; neighbours/
-  std::vector<std::uint32_t> neighbour;    ///< [entry] particle, ascending within a row; neighbours/
-  std::vector<float> rest_length;          ///< [entry] m, 0 while the two are out of range; neighbours/, then yields in forces/
+  std::vector<std::uint32_t> start;      ///< [particle + 1] first entry of each row; neighbours/
+  std::vector<std::uint32_t> neighbour;  ///< [entry] particle, ascending within a row; neighbours/
+  std::vector<float> rest_length;  ///< [entry] m, 0 while the two are out of range; neighbours/, then yields in forces/
 };
 
 }  // namespace divot::state

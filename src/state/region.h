@@ -21,8 +21,8 @@ void vertices_near(const Surface& surface, const geometry::Bvh& bvh, const math:
 /// A point of the surface.
 struct SurfacePoint {
   bool found = false;
-  Vec3 position;                  ///< m, relative to the origin
-  std::uint32_t vertex = kNone;   ///< the nearest corner of its face
+  Vec3 position;                 ///< m, relative to the origin
+  std::uint32_t vertex = kNone;  ///< the nearest corner of its face
 };
 
 /// The highest point of the surface over x, y, relative to the origin; not found outside the surface and over holes.

@@ -9,17 +9,17 @@
 
 namespace divot::state {
 
-/// What the ground remembers at the vertices that were ever touched: one column of soil under each. Columns are made in the
-/// order of first touch and never go away.
+/// What the ground remembers at the vertices that were ever touched: one column of soil under each. Columns are made in
+/// the order of first touch and never go away.
 struct Soil {
   std::vector<std::uint32_t> vertex;    ///< [column] surface vertex
   std::vector<std::uint32_t> particle;  ///< [column] row in Particles while awake, else kNone; activation/
   std::vector<Vec3> original;           ///< [column] where the vertex was before the first touch, m
   std::vector<Vec3> rest;               ///< [column] where it stands without load, m; forces/, contact/, settle/
-  std::vector<float> plastic;           ///< [column] sinkage that load has made permanent, m: where Bekker's curve is re-entered
-  std::vector<Vec3> shear;              ///< [column] shear displacement j under the body that touches it, m; contact/
-  std::vector<float> area;              ///< [column] horizontal area it stands for, m^2
-  std::vector<float> added;             ///< [column] height of soil that landed here, less what was thrown out, m; settle/
+  std::vector<float> plastic;  ///< [column] sinkage that load has made permanent, m: where Bekker's curve is re-entered
+  std::vector<Vec3> shear;     ///< [column] shear displacement j under the body that touches it, m; contact/
+  std::vector<float> area;     ///< [column] horizontal area it stands for, m^2
+  std::vector<float> added;    ///< [column] height of soil that landed here, less what was thrown out, m; settle/
   std::size_t size() const { return vertex.size(); }
 
   /// Height at which the soil would stand had it never been pressed, m: sinkage z of Bekker's law counts from here.

@@ -12,8 +12,8 @@
 
 namespace divot::state {
 
-/// How a regular grid's vertices are numbered: tile by tile, so that near neighbours are near in memory and a tile can later be
-/// loaded by itself. Row 0 is the southernmost, column 0 the westernmost.
+/// How a regular grid's vertices are numbered: tile by tile, so that near neighbours are near in memory and a tile can
+/// later be loaded by itself. Row 0 is the southernmost, column 0 the westernmost.
 struct GridLayout {
   static constexpr std::uint32_t kTile = 32;
   std::uint32_t columns = 0, rows = 0;
@@ -29,20 +29,20 @@ struct GridLayout {
 /// A terrain that came from a grid or a raster: what is needed to write one again.
 struct Raster {
   GridLayout layout;
-  double x0 = 0, y0 = 0;          ///< of column 0, row 0, in the terrain's coordinates, m
-  double dx = 0, dy = 0;          ///< spacing, m, > 0
-  std::string crs;                ///< WKT; empty when unknown
+  double x0 = 0, y0 = 0;  ///< of column 0, row 0, in the terrain's coordinates, m
+  double dx = 0, dy = 0;  ///< spacing, m, > 0
+  std::string crs;        ///< WKT; empty when unknown
 };
 
 /// The terrain. Written by terrain/ once, then by settle/ where particles moved.
 struct Surface {
-  Vec3d origin;                          ///< m: position + origin is in the terrain's coordinates
-  geometry::HalfEdgeMesh mesh;           ///< vertices without a face are holes (nodata)
-  std::vector<Vec3> position;            ///< [vertex] m, relative to origin
-  std::vector<std::uint8_t> material;    ///< [vertex] index into the world's materials
-  std::vector<std::uint32_t> column;     ///< [vertex] its soil column once it was touched, else kNone
-  float spacing = 0;                     ///< m, mean of a grid's two spacings
-  std::optional<Raster> raster;          ///< for terrain made from a grid
+  Vec3d origin;                        ///< m: position + origin is in the terrain's coordinates
+  geometry::HalfEdgeMesh mesh;         ///< vertices without a face are holes (nodata)
+  std::vector<Vec3> position;          ///< [vertex] m, relative to origin
+  std::vector<std::uint8_t> material;  ///< [vertex] index into the world's materials
+  std::vector<std::uint32_t> column;   ///< [vertex] its soil column once it was touched, else kNone
+  float spacing = 0;                   ///< m, mean of a grid's two spacings
+  std::optional<Raster> raster;        ///< for terrain made from a grid
 };
 
 }  // namespace divot::state

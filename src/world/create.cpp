@@ -1,9 +1,9 @@
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
-#include "contact/near.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "terrain/terrain.h"
 #include "world/state.h"
 
@@ -19,7 +19,20 @@ const Material* find_material(const Scene& scene, const std::string& name) {
   return find_preset(name);
 }
 
-// Height at which a ball at x, y just rests on the ground: no vertex inside it.
+// Height of a ball's centre over x, y at which it touches the plane of a face, if it would touch it inside the face.
+std::optional<double> height_on_face(const std::array<Vec3, 3>& corner, double x, double y, double radius) {
+  const Vec3d a = to_double(corner[0]), b = to_double(corner[1]), c = to_double(corner[2]);
+  const Vec3d across = cross(b - a, c - a);
+  const double size = length(across);
+  if (!(across.z > 0)) return std::nullopt;
+  const Vec3d normal = across * (1 / size);
+  const double px = x - radius * normal.x, py = y - radius * normal.y;
+  const auto side = [&](const Vec3d& p, const Vec3d& q) { return (q.x - p.x) * (py - p.y) - (q.y - p.y) * (px - p.x); };
+  if (side(a, b) < 0 || side(b, c) < 0 || side(c, a) < 0) return std::nullopt;
+  return a.z - (normal.x * (px - a.x) + normal.y * (py - a.y)) / normal.z + radius * normal.z;
+}
+
+// Height of the centre at which a ball over x, y just rests on the ground: on a face or on a vertex.
 std::optional<double> resting_height(const World::Impl& w, double x, double y, double radius) {
   const float r = static_cast<float>(radius), px = static_cast<float>(x), py = static_cast<float>(y);
   const state::SurfacePoint below = state::surface_at(w.surface, w.tree.bvh, px, py, w.region_scratch);
@@ -27,13 +40,17 @@ std::optional<double> resting_height(const World::Impl& w, double x, double y, d
   math::Aabb column;
   column.include(Vec3{px - r, py - r, -math::Aabb::kInf});
   column.include(Vec3{px + r, py + r, math::Aabb::kInf});
-  std::vector<std::uint32_t> vertices;
-  state::vertices_near(w.surface, w.tree.bvh, column, w.region_scratch, vertices);
+  std::vector<std::uint32_t> faces;
+  w.tree.bvh.query(column, faces);
   double height = below.position.z + radius;
-  for (const std::uint32_t v : vertices) {
-    const Vec3 p = w.surface.position[v];
-    const double side = radius * radius - (p.x - x) * (p.x - x) - (p.y - y) * (p.y - y);
-    if (side > 0) height = std::max(height, p.z + std::sqrt(side));
+  for (const std::uint32_t face : faces) {
+    std::array<Vec3, 3> corner;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const Vec3 p = corner[k] = w.surface.position[w.surface.mesh.origin(3 * face + k)];
+      const double rise = radius * radius - (p.x - x) * (p.x - x) - (p.y - y) * (p.y - y);
+      if (rise > 0) height = std::max(height, p.z + std::sqrt(rise));
+    }
+    height = std::max(height, height_on_face(corner, x, y, radius).value_or(height));
   }
   return height;
 }

@@ -12,9 +12,9 @@
 namespace divot::measure {
 namespace {
 
-constexpr double kEdge = 0.05;       // of the depth: where a crater ends
+constexpr double kEdge = 0.05;  // of the depth: where a crater ends
 constexpr int kRays = 72;
-constexpr double kLeastDepth = 1e-3; // of a spacing: shallower is no crater
+constexpr double kLeastDepth = 1e-3;  // of a spacing: shallower is no crater
 
 // Sinkage under x, y, m; not a number beside the surface.
 double sinkage_at(const state::Surface& surface, const state::Soil& soil, const geometry::Bvh& bvh, Vec3 at,
@@ -28,7 +28,9 @@ double sinkage_at(const state::Surface& surface, const state::Soil& soil, const 
     std::array<std::uint32_t, 3> v;
     for (std::uint32_t k = 0; k < 3; ++k) v[k] = surface.mesh.origin(3 * face + k);
     const Vec3 a = surface.position[v[0]], b = surface.position[v[1]], c = surface.position[v[2]];
-    const auto side = [&](const Vec3& p, const Vec3& q) { return (q.x - p.x) * (at.y - p.y) - (q.y - p.y) * (at.x - p.x); };
+    const auto side = [&](const Vec3& p, const Vec3& q) {
+      return (q.x - p.x) * (at.y - p.y) - (q.y - p.y) * (at.x - p.x);
+    };
     const std::array<float, 3> w = {side(b, c), side(c, a), side(a, b)};
     const float total = w[0] + w[1] + w[2];
     if (!(total > 0) || w[0] < 0 || w[1] < 0 || w[2] < 0) continue;
@@ -88,8 +90,8 @@ float sinkage(const state::Surface& surface, const state::Soil& soil, std::uint3
   return column == kNone ? 0 : soil.original[column].z - surface.position[vertex].z;
 }
 
-Crater crater(const state::Blast& blast, const state::Surface& surface, const state::Soil& soil, const geometry::Bvh& bvh,
-              state::RegionScratch& scratch) {
+Crater crater(const state::Blast& blast, const state::Surface& surface, const state::Soil& soil,
+              const geometry::Bvh& bvh, state::RegionScratch& scratch) {
   Crater result{.position = to_double(blast.ground_zero) + surface.origin,
                 .yield = blast.yield,
                 .paper_width = laws::crater_width(blast.yield)};
@@ -101,7 +103,8 @@ Crater crater(const state::Blast& blast, const state::Surface& surface, const st
   double radius = 0, lip = 0;
   int rays = 0;
   for (int k = 0; k < kRays; ++k) {
-    const Ray ray = follow(blast, 2 * std::numbers::pi * k / kRays, depth, 2 * result.paper_width, surface, soil, bvh, scratch);
+    const Ray ray =
+        follow(blast, 2 * std::numbers::pi * k / kRays, depth, 2 * result.paper_width, surface, soil, bvh, scratch);
     if (ray.whole) radius += ray.edge, lip += ray.lip, ++rays;
   }
   if (rays == 0 || radius == 0) return result;

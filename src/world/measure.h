@@ -12,13 +12,13 @@ namespace divot::measure {
 /// How far a vertex lies below the ground it started as, m.
 float sinkage(const state::Surface& surface, const state::Soil& soil, std::uint32_t vertex);
 
-/// The crater of a blast: depth at its deepest within a crater width, width from rays all round ground zero to where sinkage
-/// first falls to 5 % of the depth. All zero where the ground was not marked. [O(width / spacing)]
-Crater crater(const state::Blast& blast, const state::Surface& surface, const state::Soil& soil, const geometry::Bvh& bvh,
-              state::RegionScratch& scratch);
+/// The crater of a blast: depth at its deepest within a crater width, width from rays all round ground zero to where
+/// sinkage first falls to 5 % of the depth. All zero where the ground was not marked. [O(width / spacing)]
+Crater crater(const state::Blast& blast, const state::Surface& surface, const state::Soil& soil,
+              const geometry::Bvh& bvh, state::RegionScratch& scratch);
 
-/// Soil moved since the start. Displaced and deposited are integrals of sinkage over the surface's triangles, below and above
-/// zero; compacted is summed over the columns. [O(touched vertices)]
+/// Soil moved since the start. Displaced and deposited are integrals of sinkage over the surface's triangles, below and
+/// above zero; compacted is summed over the columns. [O(touched vertices)]
 SoilVolume soil_volume(const state::Surface& surface, const state::Soil& soil);
 
 }  // namespace divot::measure

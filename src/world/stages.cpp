@@ -11,11 +11,11 @@ namespace {
 // A particle slower than this share of the spacing a second, for this long, is still.
 constexpr double kStillSpeed = 1e-3, kStillTime = 0.2;
 
-// Substeps follow the fastest thing in the particle system. Semi-implicit Euler is stable while (frequency h)^2 + 2 damping h
-// stays below 4, so each times h may be 1.
+// Substeps follow the fastest thing in the particle system. Semi-implicit Euler is stable while (frequency h)^2 + 2
+// damping h stays below 4, so each times h may be 1.
 constexpr int kMostSubsteps = 64;
-// Share of a blast's pulse that one substep may take.
-constexpr double kPulseShare = 0.25;
+// Share of a blast's pulse that one substep may take while it is violent.
+constexpr double kPulseShare = 0.125;
 
 struct Substeps {
   int count = 1;
@@ -27,27 +27,28 @@ struct Substeps {
 double fastest_rate(const state::Particles& p, std::span<const laws::Medium> media) {
   double fastest = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (p.hold[i] != state::Hold::free) continue;
+    if (p.hold[i] != Hold::free) continue;
     const laws::Medium& m = media[p.material[i]];
     const double ground = m.ground ? m.elastic_stiffness / m.areal_mass : 0;
     const double frequency = std::sqrt(laws::lattice_stiffness(m) / p.mass[i] + ground);
     const double drag = m.ground ? m.ground_damping / m.areal_mass : 0;
-    const double damping = laws::kLatticeDamping * m.viscous_damping / p.mass[i] + m.areal_damping / m.areal_mass + drag + p.flow_rate[i];
+    const double damping =
+        laws::kLatticeDamping * m.viscous_damping / p.mass[i] + m.areal_damping / m.areal_mass + drag + p.flow_rate[i];
     fastest = std::max({fastest, frequency, damping});
   }
   return fastest;
 }
 
 // While its pulse lasts, and then for eight relaxation times of what it made flow.
-bool acts(const state::Blast& blast, double time) { return blast.active && time < blast.start + 17 * blast.pulse; }
+bool is_violent(const state::Blast& blast, double time) {
+  return blast.active && time < blast.start + 17 * blast.pulse;
+}
 
-bool in_pulse(const state::Blast& blast, double time) { return blast.active && time < blast.start + blast.pulse; }
-
-Substeps plan_substeps(const state::Particles& p, std::span<const laws::Medium> media, std::span<const state::Blast> blasts,
-                       double time, double dt) {
+Substeps plan_substeps(const state::Particles& p, std::span<const laws::Medium> media,
+                       std::span<const state::Blast> blasts, double time, double dt) {
   double wanted = dt * fastest_rate(p, media);
   for (const state::Blast& blast : blasts)
-    if (in_pulse(blast, time)) wanted = std::max(wanted, dt / (kPulseShare * blast.pulse));
+    if (is_violent(blast, time)) wanted = std::max(wanted, dt / (kPulseShare * blast.pulse));
   Substeps plan;
   plan.count = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSubsteps);
   plan.limited = wanted > kMostSubsteps;
@@ -82,8 +83,8 @@ void World::Impl::set_off_bombs() {
       // A bomb belongs to the step whose start is nearest.
       if (planned.exploded || planned.bomb.time > time() + 0.5 * scene.dt) continue;
       planned.exploded = true;
-      blasts.push_back(events::detonate(planned.bomb, scene.solver.blast, time(), scene.dt, surface, soil, tree.bvh, media,
-                                        region_scratch));
+      blasts.push_back(events::detonate(planned.bomb, scene.solver.blast, time(), scene.dt, surface, soil, tree.bvh,
+                                        media, region_scratch));
       for (const std::uint32_t column : blasts.back().column) wake.push_back(soil.vertex[column]);
       for (const std::uint32_t column : blasts.back().landing) wake.push_back(soil.vertex[column]);
     }
@@ -93,9 +94,15 @@ void World::Impl::set_off_bombs() {
 void World::Impl::move_bodies(StepReport& report) {
   if (bodies.empty()) return;
   timed(Stage::contact, [&] {
-    const contact::Situation situation{surface,       tree.bvh, soil,
-                                       particles,     media,    scene.gravity,
-                                       scene.dt,      moved.free_distance, scene.solver.bvh_update};
+    const contact::Situation situation{surface,
+                                       tree.bvh,
+                                       soil,
+                                       particles,
+                                       media,
+                                       scene.gravity,
+                                       scene.dt,
+                                       moved.free_distance,
+                                       scene.solver.bvh_update};
     contact::move_bodies(bodies, rigid, situation, wake, contact_scratch, *jobs);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       report.not_finite |= rescue(bodies[i], contact_scratch.before[i]);
@@ -112,10 +119,10 @@ bool World::Impl::wake_and_sleep() {
     for (const state::Blast& blast : blasts)
       if (blast.active && blast.start == time())
         for (const std::uint32_t column : blast.column)
-          if (const std::uint32_t i = soil.particle[column]; i != kNone && particles.hold[i] == state::Hold::free)
+          if (const std::uint32_t i = soil.particle[column]; i != kNone && particles.hold[i] == Hold::free)
             particles.flow_rate[i] = std::max(particles.flow_rate[i], blast.flow_rate);
     std::size_t awake = 0;
-    for (const state::Hold hold : particles.hold) awake += hold != state::Hold::anchor;
+    for (const Hold hold : particles.hold) awake += hold != Hold::anchor;
     peak_particles = std::max(peak_particles, awake);
     return changed;
   });
@@ -130,13 +137,18 @@ void World::Impl::find_neighbours(bool particles_changed) {
   });
 }
 
-void World::Impl::move_particles(StepReport& report) {
+void World::Impl::move_particles(bool particles_changed, StepReport& report) {
   if (particles.size() == 0) return;
   const Substeps plan = plan_substeps(particles, media, blasts, time(), scene.dt);
   report.substeps = plan.count;
   report.substeps_limited = plan.limited;
-  const forces::Field field{bonds, soil, media, blasts, scene.solver.cohesion,
-                            static_cast<float>(scene.solver.cutoff) * surface.spacing, plan.resolution};
+  const forces::Field field{bonds,
+                            soil,
+                            media,
+                            blasts,
+                            scene.solver.cohesion,
+                            static_cast<float>(scene.solver.cutoff) * surface.spacing,
+                            plan.resolution};
   const integration::Forces evaluate = [&](const state::MotionView& motion, double at) {
     timed(Stage::forces, [&] { forces::evaluate(particles, motion, at, field, *jobs); });
     return integration::ForceView{particles.fx, particles.fy, particles.fz};
@@ -146,8 +158,10 @@ void World::Impl::move_particles(StepReport& report) {
   const double h = scene.dt / plan.count;
   for (int k = 0; k < plan.count; ++k) {
     const double at = time() + k * h;
-    const bool blast_acts = std::any_of(blasts.begin(), blasts.end(), [&](const state::Blast& b) { return acts(b, at); });
-    const bool rk4 = scene.solver.integrator == Integrator::rk4 || (scene.solver.integrator == Integrator::automatic && blast_acts);
+    find_neighbours(particles_changed && k == 0);
+    const bool blast_acts = std::any_of(blasts.begin(), blasts.end(), [](const state::Blast& b) { return b.active; });
+    const bool rk4 =
+        scene.solver.integrator == Integrator::rk4 || (scene.solver.integrator == Integrator::automatic && blast_acts);
     timed(Stage::integration, [&] {
       if (rk4)
         integration::rk4(motion, p.mass, at, h, evaluate, integration_scratch, *jobs);
@@ -161,15 +175,18 @@ void World::Impl::move_particles(StepReport& report) {
 
 void World::Impl::settle_ground() {
   timed(Stage::settle, [&] {
-    const settle::Stillness stillness{static_cast<float>(kStillSpeed) * surface.spacing,
-                                      static_cast<std::uint16_t>(std::clamp(std::ceil(kStillTime / scene.dt), 2.0, 60000.0))};
+    const double speed = kStillSpeed * surface.spacing;
+    const settle::Stillness stillness{
+        static_cast<float>(speed), static_cast<float>(speed * scene.dt),
+        static_cast<std::uint16_t>(std::clamp(std::ceil(kStillTime / scene.dt), 2.0, 60000.0))};
     settle::update(particles, soil, surface, blasts, media, stillness, time() + scene.dt, moved);
     for (const std::uint32_t vertex : moved.vertices) dirty_chunk[vertex / kDirtyChunk] = true;
   });
 }
 
 void World::Impl::refit_tree() {
-  timed(Stage::refit, [&] { refit::update(tree, surface, moved.vertices, moved.distance, scene.solver.bvh_update, *jobs); });
+  timed(Stage::refit,
+        [&] { refit::update(tree, surface, moved.vertices, moved.distance, scene.solver.bvh_update, *jobs); });
 }
 
 }  // namespace divot

@@ -74,7 +74,7 @@ struct World::Impl {
   void move_bodies(StepReport& report);
   bool wake_and_sleep();
   void find_neighbours(bool particles_changed);
-  void move_particles(StepReport& report);
+  void move_particles(bool particles_changed, StepReport& report);
   void settle_ground();
   void refit_tree();
 };

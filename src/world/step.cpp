@@ -8,8 +8,7 @@ StepReport World::step() {
   w.set_off_bombs();
   w.move_bodies(report);
   const bool particles_changed = w.wake_and_sleep();
-  w.find_neighbours(particles_changed);
-  w.move_particles(report);
+  w.move_particles(particles_changed, report);
   w.settle_ground();
   w.refit_tree();
   ++w.step_count;

@@ -29,9 +29,7 @@ SurfaceView World::surface() const {
 
 ParticleView World::particles() const {
   const state::Particles& p = impl_->particles;
-  static_assert(sizeof(state::Hold) == 1);
-  const std::span<const std::uint8_t> hold{reinterpret_cast<const std::uint8_t*>(p.hold.data()), p.size()};
-  return {p.vertex, p.x, p.y, p.z, p.vx, p.vy, p.vz, hold};
+  return {p.vertex, p.x, p.y, p.z, p.vx, p.vy, p.vz, p.hold};
 }
 
 std::vector<BodyView> World::bodies() const {

@@ -1,0 +1,10 @@
+# What a static divot is linked with. Header-only libraries are compiled in.
+include(CMakeFindDependencyMacro)
+find_dependency(PkgConfig)
+find_dependency(tl-expected)
+find_dependency(TBB)
+find_dependency(fmt)
+find_dependency(GDAL)
+pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)
+pkg_check_modules(TOMLPP REQUIRED IMPORTED_TARGET tomlplusplus)
+include("${CMAKE_CURRENT_LIST_DIR}/divotTargets.cmake")

@@ -1,0 +1,131 @@
+#include "contact/column_load.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/near.h"
+
+namespace divot::contact {
+namespace {
+
+// Flanks steeper than this push sideways no harder: at the equator of a ball the vertical columns would push
+// infinitely.
+constexpr double kSteepestFlank = 0.25;  // |vertical part of the normal|
+
+// Speed along `direction` of the point of the body at `arm`.
+Row row_of(const Vec3d& direction, const Vec3d& arm) {
+  const Vec3d turn = cross(arm, direction);
+  return {direction.x, direction.y, direction.z, turn.x, turn.y, turn.z};
+}
+
+double patch(const state::Body& body, const Situation& s) {
+  return std::max<double>(body.patch_width, 0.5 * s.surface.spacing);
+}
+
+double underside_at(const Contact& c, double rising, double dt) { return c.underside + dt * (rising - c.rise_there); }
+
+laws::Pressure<double> pressure_of(const state::Body& body, const Footing& f, double sinkage, const Situation& s) {
+  const laws::Medium& medium = s.media[f.material];
+  if (!medium.ground) return {};
+  return laws::ground_pressure<double>(medium, sinkage, f.plastic, patch(body, s), medium.elastic_stiffness);
+}
+
+Contact frozen(const Footing& f, const Underside& under, const Vec3d& position, const Row& v) {
+  Contact c{.underside = under.height};
+  c.arm = {f.x - position.x, f.y - position.y, under.height - position.z};
+  const double steep = std::max(kSteepestFlank, -under.normal.z);
+  const Vec3d lift{-under.normal.x / steep, -under.normal.y / steep, 1};
+  c.slope = length(lift);
+  c.rise = row_of(lift, c.arm);
+  c.rise_there = dot6(c.rise, v);
+
+  // Slip is against the column, which goes up and down with the underside.
+  const Vec3d level = cross(under.normal, Vec3d{0, 1, 0});
+  const double l = length(level);
+  c.tangent[0] = l > 1e-6 ? level * (1 / l) : Vec3d{1, 0, 0};
+  c.tangent[1] = cross(under.normal, c.tangent[0]);
+  for (int i = 0; i < 2; ++i) {
+    c.slip[i] = row_of(c.tangent[i], c.arm);
+    for (int k = 0; k < 6; ++k) c.slip[i][k] -= c.tangent[i].z * c.rise[k];
+  }
+  return c;
+}
+
+}  // namespace
+
+void freeze_geometry(const state::Body& body, const std::vector<Footing>& footings, const Row& v, const Situation& s,
+                     std::vector<Contact>& contacts) {
+  contacts.clear();
+  const Vec3d position = body.position + s.dt * Vec3d{v[0], v[1], v[2]};
+  for (std::uint32_t k = 0; k < footings.size(); ++k) {
+    const Footing& f = footings[k];
+    const Underside under = underside(body, position, f.x, f.y);
+    if (!under.below) continue;
+    contacts.push_back(frozen(f, under, position, v));
+    contacts.back().footing = k;
+  }
+}
+
+Push push_of(const state::Body& body, const Footing& f, const Contact& c, double rising, const Situation& s) {
+  const double height = underside_at(c, rising, s.dt);
+  if (height >= f.height) return {};
+  const laws::Medium& medium = s.media[f.material];
+  const auto pressure = pressure_of(body, f, f.fresh - height, s);
+  // The particle's own inertia and what cohesion does to it come on top of the soil's pressure. One that a body carries
+  // already moves with it; others are met at their own speed.
+  const Row now{body.velocity.x,         body.velocity.y,         body.velocity.z,
+                body.angular_velocity.x, body.angular_velocity.y, body.angular_velocity.z};
+  const double inertia = f.mass / s.dt, met = f.carried ? dot6(c.rise, now) : f.speed;
+  Push push{pressure.value * f.area + f.pull + inertia * (met - rising), pressure.slope * f.area * s.dt + inertia};
+  // Soil that is being compressed radiates waves: without that, a ball set down gently would sink as if it were
+  // dropped.
+  if (rising < 0 && medium.ground) {
+    push.force -= medium.ground_damping * f.area * rising;
+    push.per_speed += medium.ground_damping * f.area;
+  }
+  return push.force > 0 ? push : Push{};  // soil does not pull
+}
+
+Shear shear_of(const laws::Medium& medium, const Footing& f, const Contact& c, const std::array<double, 2>& slip,
+               double dt) {
+  const double j[2] = {dot(f.shear, c.tangent[0]) + dt * slip[0], dot(f.shear, c.tangent[1]) + dt * slip[1]};
+  const double size = std::hypot(j[0], j[1]), most = laws::kSlideShear * medium.shear_modulus;
+  Shear shear;
+  if (size <= 0) {
+    shear.tangent = shear.secant = c.grip / medium.shear_modulus;
+    return shear;
+  }
+  // Force by Janosi-Hanamoto; beyond the displacement at which the soil slides it stays the same.
+  const double share = laws::mobilised_shear<double>(medium, std::min(size, most));
+  for (int i = 0; i < 2; ++i) {
+    shear.along[i] = j[i] / size;
+    shear.force[i] = c.grip * share * shear.along[i];
+  }
+  shear.secant = c.grip * share / size;
+  shear.tangent = size < most ? c.grip * (1 - share) / medium.shear_modulus : 0;
+  return shear;
+}
+
+double grip_of(const state::Body& body, const Footing& f, const Contact& c, const Situation& s) {
+  if (f.load <= 0) return 0;
+  const double contact_area = f.area * c.slope, normal_force = f.load * c.slope;
+  return std::min(laws::shear_strength<double>(s.media[f.material], normal_force / contact_area) * contact_area,
+                  body.friction * normal_force);
+}
+
+Answer answer_of(const state::Body& body, const Footing& f, const Contact& c, const Row& v, const Situation& s) {
+  const laws::Medium& medium = s.media[f.material];
+  const double sinkage = f.fresh - underside_at(c, dot6(c.rise, v), s.dt);
+  const auto pressure = pressure_of(body, f, sinkage, s);
+  Answer answer{.plastic = f.plastic, .pressure = pressure.value};
+  if (pressure.yields) answer.plastic = std::max(f.plastic, sinkage - pressure.value / medium.elastic_stiffness);
+
+  // Beyond the displacement at which the soil slides the rest is slip.
+  Vec3d shear;
+  for (int i = 0; i < 2; ++i) shear += (dot(f.shear, c.tangent[i]) + s.dt * dot6(c.slip[i], v)) * c.tangent[i];
+  const double size = length(shear), most = laws::kSlideShear * medium.shear_modulus;
+  answer.shear = f.load <= 0 ? Vec3d{} : size > most ? shear * (most / size) : shear;
+  return answer;
+}
+
+}  // namespace divot::contact

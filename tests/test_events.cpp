@@ -1,0 +1,249 @@
+// Bombs: what they push, and the craters that come of it.
+#include <algorithm>
+
+#include "events/events.h"
+#include "laws/blast.h"
+#include "support.h"
+
+namespace divot::events {
+namespace {
+
+// ---- detonation alone
+
+struct Site {
+  explicit Site(const GridTerrain& grid) : surface(test::make_surface(grid)) {
+    bvh.build(surface.mesh.triangles(), surface.position, 0, Jobs(1));
+  }
+  state::Blast detonate(const Bomb& bomb, Blast model = Blast::scaled) {
+    return events::detonate(bomb, model, 2, 1.0 / 60, surface, soil, bvh, media, scratch);
+  }
+  state::Surface surface;
+  state::Soil soil;
+  geometry::Bvh bvh;
+  std::vector<laws::Medium> media = {laws::make_medium(Material{})};
+  state::RegionScratch scratch;
+};
+
+double distance(const Site& site, const state::Blast& blast, std::uint32_t column) {
+  const Vec3 offset = site.soil.original[column] - blast.ground_zero;
+  return std::hypot(offset.x, offset.y);
+}
+
+TEST(Events, ABombPushesTheGroundThatFailsAndLetsSoilLandAroundIt) {
+  Site site({.columns = 61, .rows = 61, .spacing = 0.3});
+  const state::Blast blast = site.detonate({.position = {0.05, -0.1, 0}});
+  const double radius = laws::scaled_radius(1, Material{}.blast_strength, 0);
+  EXPECT_TRUE(blast.active);
+  EXPECT_EQ(blast.start, 2);
+  EXPECT_GE(blast.pulse, laws::pulse(1));
+  EXPECT_LT(length(blast.direction - Vec3{0, 0, -1}), 1e-6f);
+
+  std::size_t inside = 0;
+  for (const Vec3& p : site.surface.position) inside += std::hypot(p.x - 0.05, p.y + 0.1) < radius;
+  EXPECT_EQ(blast.column.size(), inside);
+  for (std::size_t k = 0; k < blast.column.size(); ++k) {
+    EXPECT_LE(distance(site, blast, blast.column[k]), radius);
+    EXPECT_GT(blast.push[k], 0);
+  }
+  double landed = 0;
+  for (std::size_t k = 0; k < blast.landing.size(); ++k) {
+    EXPECT_GE(distance(site, blast, blast.landing[k]), 0.999 * radius);
+    EXPECT_LE(distance(site, blast, blast.landing[k]), 2.15 * radius);
+    landed += blast.landing_height[k] * site.soil.area[blast.landing[k]];
+  }
+  EXPECT_NEAR(landed, 1, 1e-4) << "all that is thrown lands";
+}
+
+TEST(Events, ThePapersModelPushesTheParticlesWithinTheWidth) {
+  Site site({});
+  const state::Blast blast = site.detonate({.position = {2, 2, 10}, .yield = 5000}, Blast::paper);
+  EXPECT_NEAR(static_cast<double>(blast.column.size()), 98, 1);
+  EXPECT_TRUE(blast.landing.empty());
+  EXPECT_EQ(blast.flow_rate, 0);
+  for (const std::uint32_t column : blast.column)
+    EXPECT_LE(distance(site, blast, column), laws::crater_width(5000) / 2);
+}
+
+TEST(Events, BombsBesideTheTerrainOrTooHighPushNothing) {
+  Site site({.columns = 21, .rows = 21, .spacing = 1});
+  EXPECT_FALSE(site.detonate({.position = {30, 0, 0}}).active);
+  EXPECT_FALSE(site.detonate({.position = {0, 0, 6.5}}).active);
+  EXPECT_EQ(site.soil.size(), 0u);
+}
+
+TEST(Events, BelowTheGroundCountsAsAtTheGround) {
+  Site above({.columns = 21, .rows = 21, .spacing = 1}), below({.columns = 21, .rows = 21, .spacing = 1});
+  EXPECT_EQ(above.detonate({.position = {0, 0, 0}}).push, below.detonate({.position = {0, 0, -5}}).push);
+}
+
+TEST(Events, OnASlopeTheGroundIsPushedAlongItsNormal) {
+  Site site({.columns = 41, .rows = 41, .spacing = 0.5, .height = [](double x, double) { return 0.4 * x; }});
+  const state::Blast blast = site.detonate({.position = {0, 0, 0}});
+  EXPECT_LT(length(blast.direction - normalized(Vec3{0.4f, 0, -1})), 1e-4f);
+}
+
+// ---- craters
+
+// The paper's grid scaled to a yield: eleven spacings across the crater.
+double spacing_for(double yield) { return 10.9 * std::cbrt(yield / 5000); }
+
+Scene crater_scene(double yield, double height = 0) {
+  Scene scene;
+  scene.terrain.shape = GridTerrain{.columns = 37, .rows = 37, .spacing = spacing_for(yield)};
+  scene.bombs = {{.time = 0, .position = {0.1 * spacing_for(yield), 0, height}, .yield = yield}};
+  return scene;
+}
+
+World blow(const Scene& scene, double until = 1.2) {
+  World world = test::make_world(scene);
+  test::run_to(world, until);
+  EXPECT_TRUE(test::all_finite(world));
+  return world;
+}
+
+Crater crater_of(const Scene& scene) { return blow(scene).craters().at(0); }
+
+TEST(EventsCrater, WidthIsEq10s) {
+  for (const double yield : {0.25, 1.0, 100.0, 5000.0}) {
+    const Crater crater = crater_of(crater_scene(yield));
+    const double expected = laws::crater_width(yield);
+    EXPECT_DOUBLE_EQ(crater.paper_width, expected);
+    EXPECT_NEAR(crater.width, expected, 0.1 * expected) << yield << " t";
+    EXPECT_GE(crater.depth / crater.width, 0.15) << yield << " t";
+    EXPECT_LE(crater.depth / crater.width, 0.30) << yield << " t";
+  }
+}
+
+TEST(EventsCrater, HasALip) {
+  Scene scene = crater_scene(1);
+  std::get<GridTerrain>(scene.terrain.shape) = {.columns = 75, .rows = 75, .spacing = spacing_for(1) / 2};
+  const World world = blow(scene);
+  const Crater crater = world.craters().at(0);
+  EXPECT_GE(crater.lip_height / crater.depth, 0.15);
+  EXPECT_LE(crater.lip_height / crater.depth, 0.35);
+  const double share = world.soil_volume().deposited / crater.volume;
+  EXPECT_GE(share, 0.14);
+  EXPECT_LE(share, 0.21);
+}
+
+TEST(EventsCrater, DoesNotDependOnTheSpacing) {
+  Scene fine = crater_scene(100);
+  auto& grid = std::get<GridTerrain>(fine.terrain.shape);
+  grid = {.columns = 73, .rows = 73, .spacing = grid.spacing / 2};
+  const Crater a = crater_of(crater_scene(100)), b = crater_of(fine);
+  EXPECT_NEAR(b.width, a.width, 0.1 * a.width);
+  EXPECT_NEAR(b.depth, a.depth, 0.1 * a.depth);
+}
+
+TEST(EventsCrater, DoesNotDependOnTheStep) {
+  for (const double yield : {1.0, 5000.0}) {
+    Scene fine = crater_scene(yield);
+    fine.dt /= 2;
+    const Crater a = crater_of(crater_scene(yield)), b = crater_of(fine);
+    EXPECT_NEAR(b.width, a.width, 0.05 * a.width);
+    EXPECT_NEAR(b.depth, a.depth, 0.05 * a.depth);
+  }
+}
+
+TEST(EventsCrater, OfThePapersModelIsAsWideToo) {
+  Scene scene = test::paper_scene();
+  scene.bodies.clear();
+  scene.solver.blast = Blast::paper;
+  const Crater crater = crater_of(scene);
+  EXPECT_NEAR(crater.width, 121.961, 12.2);
+  EXPECT_GT(crater.depth, 0);
+  EXPECT_LT(crater.depth, 0.5 * crater.width);
+}
+
+// The paper's other claim: what the ground is made of shows in the crater [TM 5-855-1].
+TEST(EventsCrater, IsWhatWasMeasuredInItsSoil) {
+  struct Soil {
+    const char* name;
+    double radius, depth;  // m/kg^(1/3)
+  };
+  for (const Soil& soil : {Soil{"dry_sand", 0.297, 0.149}, {"mud", 0.456, 0.228}}) {
+    Scene scene = crater_scene(1);
+    std::get<GridTerrain>(scene.terrain.shape) = {.columns = 61, .rows = 61, .spacing = 0.4};
+    scene.terrain.material = soil.name;
+    const Crater crater = crater_of(scene);
+    EXPECT_NEAR(crater.width / 2, 10 * soil.radius, 1.5 * soil.radius) << soil.name;
+    EXPECT_NEAR(crater.depth, 10 * soil.depth, 1.5 * soil.depth) << soil.name;
+  }
+}
+
+TEST(EventsCrater, ShrinksWithTheHeightOfBurst) {
+  Crater before = crater_of(crater_scene(1, 0));
+  for (const double height : {1.0, 2.0, 3.0, 4.0}) {
+    const Crater crater = crater_of(crater_scene(1, height));
+    EXPECT_LT(crater.width, before.width) << height;
+    EXPECT_LT(crater.depth, before.depth) << height;
+    before = crater;
+  }
+}
+
+TEST(EventsCrater, ABombTooHighLeavesNoMark) {
+  Scene scene = crater_scene(1, 7);
+  const World world = blow(scene);
+  EXPECT_EQ(world.craters().at(0).width, 0);
+  EXPECT_EQ(world.craters().at(0).depth, 0);
+  EXPECT_EQ(world.soil_volume().displaced, 0);
+  scene.bombs.clear();
+  EXPECT_EQ(world.state_hash(), blow(scene).state_hash());
+}
+
+TEST(EventsCrater, ABombOutsideTheTerrainDoesNothing) {
+  Scene scene = crater_scene(1);
+  scene.bombs[0].position.x = 1000;
+  const World world = blow(scene);
+  EXPECT_TRUE(world.bombs().at(0).exploded);
+  EXPECT_EQ(world.craters().at(0).width, 0);
+  scene.bombs.clear();
+  EXPECT_EQ(world.state_hash(), blow(scene).state_hash());
+}
+
+TEST(EventsCrater, AtTheBorderOnlyTheGroundThatIsThereMoves) {
+  Scene scene = crater_scene(1);
+  scene.bombs[0].position.x = 18 * spacing_for(1);
+  const World world = blow(scene);
+  EXPECT_GT(world.soil_volume().displaced, 1);
+}
+
+TEST(EventsCrater, TwoThatOverlapAreDeeperThanOne) {
+  Scene one = crater_scene(1), two = one;
+  two.bombs.push_back(one.bombs[0]);
+  two.bombs[1].time = 0.5;
+  two.bombs[1].position.x += 2;
+  const World single = blow(one), both = blow(two);
+  ASSERT_EQ(both.craters().size(), 2u);
+  // The second goes off in the hole of the first and finds more ground around it than on the plain.
+  const double first = single.soil_volume().displaced, all = both.soil_volume().displaced;
+  EXPECT_GT(all, 1.3 * first);
+  EXPECT_LT(all, 3.5 * first);
+  EXPECT_GT(both.craters()[1].depth, single.craters()[0].depth);
+}
+
+// Two at the same time and place push twice, in the order of the scene.
+TEST(EventsCrater, TwoAtOnceAreTwoAtOnce) {
+  Scene scene = crater_scene(1);
+  scene.bombs.push_back(scene.bombs[0]);
+  const World world = blow(scene);
+  EXPECT_EQ(world.craters().size(), 2u);
+  EXPECT_GT(world.craters()[0].depth, crater_of(crater_scene(1)).depth);
+}
+
+// Down a slope along x nothing tells left from right.
+TEST(EventsCrater, OnASlopeIsSymmetricAcrossIt) {
+  Scene scene = crater_scene(1);
+  auto& grid = std::get<GridTerrain>(scene.terrain.shape);
+  grid.height = [](double x, double) { return 0.3 * x; };
+  scene.bombs[0].position = {};
+  const World world = blow(scene);
+  const Crater crater = world.craters().at(0);
+  EXPECT_NEAR(crater.width, laws::crater_width(1), 0.15 * laws::crater_width(1));
+  const auto sunk = [&](double x, double y) { return 0.3 * x - world.ground_height(x, y); };
+  for (double x = -3; x <= 3; x += 0.5)
+    for (double y = 0.5; y <= 4; y += 0.5) EXPECT_NEAR(sunk(x, y), sunk(x, -y), 0.03 * crater.depth) << x << ' ' << y;
+}
+
+}  // namespace
+}  // namespace divot::events
