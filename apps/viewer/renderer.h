@@ -28,10 +28,13 @@ struct RenderOptions {
   Quality quality = Quality::fine;
   bool effects = false;               ///< flash and dust of explosions
   bool show_time = false;             ///< simulated time in the lower left corner
+  bool show_legend = false;           ///< what the ground's colours tell, in the upper right corner
   std::optional<Camera> camera = {};  ///< empty: frames what the first update() shows, see frame()
-  std::optional<BodyId> follow = {};  ///< the camera keeps its distance to this body; nothing where there is none such
-  double sun_azimuth_deg = 68;        ///< degrees clockwise from north (y)
-  double sun_elevation_deg = 29;      ///< degrees above the horizon, (0, 90]
+  /// The camera moves along with this body: from where it was asked to be, or else with the body in the middle.
+  /// Nothing where there is none such.
+  std::optional<BodyId> follow = {};
+  double sun_azimuth_deg = 68;    ///< degrees clockwise from north (y)
+  double sun_elevation_deg = 29;  ///< degrees above the horizon, (0, 90]
 };
 
 /// Draws a world without a display. Several can live side by side; one must not be used by two threads at a time.
@@ -54,6 +57,9 @@ class Renderer {
 
   /// The same for a world, with the particles that ColorBy::awake shows; takes its dirty ranges.
   void update(World& world);
+
+  /// From the next update() on, draws lines or lit ground.
+  void set_wireframe(bool wireframe);
 
   /// Draws the last update(); only background before there was one. Fails when the driver lost its context.
   Result<Image> pixels();
