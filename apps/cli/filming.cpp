@@ -8,6 +8,11 @@
 
 namespace divot::cli {
 
+Filming::Filming(World& world, viewer::Renderer& renderer)
+    : world_(world), renderer_(renderer), progress_(world.scene().duration, true) {
+  renderer_.update(world_);
+}
+
 Result<viewer::Image> Filming::picture_at(double time, bool wireframe) {
   for (const double early = time - 0.5 * world_.scene().dt; world_.time() < early && !interrupted();) {
     world_.step();

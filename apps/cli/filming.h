@@ -9,9 +9,9 @@ namespace divot::cli {
 /// A world that is drawn on its way.
 class Filming {
  public:
-  /// Both must outlive it.
-  Filming(World& world, viewer::Renderer& renderer)
-      : world_(world), renderer_(renderer), progress_(world.scene().duration, true) {}
+  /// Shows `renderer` the world at its start, so that the view is the same whichever pictures are asked for. Both must
+  /// outlive it.
+  Filming(World& world, viewer::Renderer& renderer);
 
   /// Steps to the step nearest to `time` (s) and draws; call it in ascending order. Fails when the driver does; when
   /// interrupted() the picture is of no use.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kLeastSize = 16, kLargestSize = 16384;
 constexpr double kWidestView = 120;  // degrees
-constexpr double kRoom = 4;          // around a followed body, in radii
+constexpr double kRoom = 2.5;        // around a followed body, in radii
 constexpr double kSteepest = 1e-6;   // horizontal over whole distance, below which a view goes straight up or down
 
 Result<void> check(const std::optional<Camera>& camera) {

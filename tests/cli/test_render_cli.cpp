@@ -168,7 +168,7 @@ TEST_F(RenderCli, WireframeIsForAllPicturesOrForSome) {
   const Outcome outcome = render({"--at", "0.5,0.8", "--wireframe-at", "0.8"}, "some");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(differing(read_picture(folder_ / "some/ball_t0000.800.png"), lines), 0);
-  EXPECT_LT(differing(read_picture(folder_ / "some/ball_t0000.500.png"), ground), 0.3);
+  EXPECT_LT(differing(read_picture(folder_ / "some/ball_t0000.500.png"), ground), 0.2);
   // And back to ground after lines.
   ASSERT_EQ(render({"--at", "0.5,0.8", "--wireframe-at", "0.5"}, "some").status, 0);
   EXPECT_EQ(differing(read_picture(folder_ / "some/ball_t0000.800.png"), ground), 0);
