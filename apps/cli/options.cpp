@@ -114,6 +114,11 @@ viewer::Camera read_camera(const std::string& text) {
   return camera;
 }
 
+double above_zero(const char* option, double number) {
+  if (!(number > 0)) throw CLI::ValidationError(option, fmt::format("{:g} is not above 0", number));
+  return number;
+}
+
 void add_color(CLI::App& command, viewer::ColorBy& color) {
   const std::vector<std::string> names(viewer::kColorByNames.begin(), viewer::kColorByNames.end());
   command
@@ -149,8 +154,10 @@ void add_render(CLI::App& app, RenderOptions& options) {
   CLI::Option* some = add_times(command, "--wireframe-at", options.wireframe_at, "the same, only for these times");
   add_color(command, options.color);
   CLI::Option* sheet = command.add_flag("--sheet", options.sheet, "also all pictures on one sheet, each with its time");
-  CLI::Option* fps = command.add_option("--fps", options.fps, "numbered pictures over the whole run, so many a second");
-  fps->check(CLI::PositiveNumber.description(""))->type_name("N");
+  CLI::Option* fps = command.add_option_function<double>(
+      "--fps", [&options](double fps) { options.fps = above_zero("--fps", fps); },
+      "numbered pictures over the whole run, so many a second");
+  fps->type_name("N");
   CLI::Option* video =
       command.add_option("--video", options.video,
                          "also a video of them inside DIR (.mp4, .mkv or .mov), where ffmpeg is installed; 30 a second "

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <utility>
+
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/scene_input.h"
@@ -67,10 +69,16 @@ Result<viewer::Renderer> renderer_for(const RenderOptions& options, const Plan& 
                                    .follow = plan.follow});
 }
 
-// A machine that cannot draw is no fault of the command line.
-int exit_status(const Errors& errors) {
-  const std::string& key = errors.front().key;
-  return key == "size" || key == "camera" ? kBadInput : kFailed;
+// What an option asked for and cannot be had is named by the option; a machine that cannot draw is no fault of the
+// command line.
+int refuse(Errors errors) {
+  int status = kFailed;
+  for (Error& error : errors) {
+    if (error.key != "size" && error.key != "camera") continue;
+    error.file = "--" + std::exchange(error.key, {});
+    status = kBadInput;
+  }
+  return report(errors, status);
 }
 
 }  // namespace
@@ -82,7 +90,7 @@ int render(const RenderOptions& options) {
   const auto asked = plan(options, *world);
   if (!asked) return report(asked.error(), kBadInput);
   auto renderer = renderer_for(options, *asked);
-  if (!renderer) return report(renderer.error(), exit_status(renderer.error()));
+  if (!renderer) return refuse(renderer.error());
   if (const auto made = output::make_folder(asked->folder); !made) return report(made.error(), kFailed);
 
   Filming filming(*world, *renderer);

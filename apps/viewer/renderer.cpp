@@ -24,11 +24,11 @@ Result<void> check(const std::optional<Camera>& camera) {
   if (!camera) return {};
   if (!(camera->fov_deg > 0 && camera->fov_deg <= kWidestView)) {
     return failure(fmt::format("a field of view of {:g} degrees", camera->fov_deg),
-                   fmt::format("above 0 to {:g}", kWidestView), "camera");
+                   fmt::format("expected above 0 to {:g}", kWidestView), "camera");
   }
   const double distance = length(camera->target - camera->eye);
   if (!(distance > 0 && std::isfinite(distance))) {
-    return failure("the eye does not look anywhere", "a target that is not where the eye is", "camera");
+    return failure("the eye does not look anywhere", "expected a target that is not where the eye is", "camera");
   }
   return {};
 }

@@ -18,7 +18,7 @@ using test::line_count;
 using test::Outcome;
 using Files = std::vector<std::string>;
 
-// Two soils, a ball across them and a bomb.
+// A ball on sand, and a bomb.
 constexpr const char* kScene = R"(duration = 1.0
 [terrain]
 grid = { columns = 41, rows = 41, spacing = 0.5 }
@@ -281,7 +281,7 @@ TEST_F(RenderCli, AVideoThatFailsLeavesNoHalf) {
 TEST_F(RenderCli, BadValuesAreRefused) {
   expect_refused({"--camera", "1,2,3"}, {"--camera", "X,Y,Z,TX,TY,TZ"});
   expect_refused({"--camera", "1,2,3,4,5,six"}, {"--camera", "six"});
-  expect_refused({"--camera", "1,2,3,1,2,3"}, {"camera", "eye"});
+  expect_refused({"--camera", "1,2,3,1,2,3"}, {"--camera", "eye"});
   expect_refused({"--camera", "1,2,3,4,5,nan"}, {"camera"});
   expect_refused({"--camera", "1,2,3,4,5,6,121"}, {"camera", "121 degrees", "120"});
   expect_refused({"--follow", "cube"}, {"--follow", "cube", "ball"});
@@ -289,7 +289,7 @@ TEST_F(RenderCli, BadValuesAreRefused) {
   expect_refused({"--color", "slope", "--wireframe"}, {"--color", "lines have no colours"});
   expect_refused({"--wireframe-at", "0.3"}, {"--wireframe-at", "0.3 s", "0, 0.25, 0.5"});
   expect_refused({"--wireframe", "--wireframe-at", "0"}, {"--wireframe-at", "excludes"});
-  expect_refused({"--fps", "0"}, {"--fps"});
+  expect_refused({"--fps", "0"}, {"--fps: 0 is not above 0"});
   expect_refused({"--fps", "many"}, {"--fps", "many"});
   expect_refused({"--fps", "100000"}, {"--fps", "100000", "steps"});
   expect_refused({"--fps", "5", "--at", "0"}, {"--fps", "--at"});
