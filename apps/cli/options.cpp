@@ -155,7 +155,7 @@ void add_render(CLI::App& app, RenderOptions& options) {
   add_color(command, options.color);
   CLI::Option* sheet = command.add_flag("--sheet", options.sheet, "also all pictures on one sheet, each with its time");
   CLI::Option* fps = command.add_option_function<double>(
-      "--fps", [&options](double fps) { options.fps = above_zero("--fps", fps); },
+      "--fps", [&options](double rate) { options.fps = above_zero("--fps", rate); },
       "numbered pictures over the whole run, so many a second");
   fps->type_name("N");
   CLI::Option* video =
