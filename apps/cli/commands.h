@@ -9,6 +9,7 @@ int run(const RunOptions& options);
 int check(const CheckOptions& options);
 int materials(const MaterialsOptions& options);
 int render(const RenderOptions& options);
+int view(const ViewOptions& options);
 int bench(const BenchOptions& options);
 
 }  // namespace divot::cli

@@ -11,6 +11,7 @@ int carry_out(const RunOptions& options) { return run(options); }
 int carry_out(const CheckOptions& options) { return check(options); }
 int carry_out(const MaterialsOptions& options) { return materials(options); }
 int carry_out(const RenderOptions& options) { return render(options); }
+int carry_out(const ViewOptions& options) { return view(options); }
 int carry_out(const BenchOptions& options) { return bench(options); }
 
 }  // namespace

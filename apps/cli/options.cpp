@@ -1,6 +1,9 @@
 #include "cli/options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 // The only file that includes it: it takes seconds to compile.
 #include <CLI/CLI.hpp>
@@ -64,38 +67,115 @@ void add_materials(CLI::App& app, MaterialsOptions& options) {
   command.add_flag("--json", options.json, "as JSON");
 }
 
-void read_size(const std::string& text, RenderOptions& options) {
+void read_size(const std::string& text, int& width, int& height) {
   const std::size_t at = text.find('x');
-  const bool read = at != std::string::npos && CLI::detail::lexical_cast(text.substr(0, at), options.width) &&
-                    CLI::detail::lexical_cast(text.substr(at + 1), options.height);
+  const bool read = at != std::string::npos && CLI::detail::lexical_cast(text.substr(0, at), width) &&
+                    CLI::detail::lexical_cast(text.substr(at + 1), height);
   if (!read) throw CLI::ValidationError("--size", fmt::format("\"{}\" is not WIDTHxHEIGHT, as in 1280x720", text));
 }
 
-std::vector<double> read_times(const std::string& text) {
-  std::vector<double> times;
+void add_size(CLI::App& command, int& width, int& height) {
+  command
+      .add_option_function<std::string>(
+          "--size", [&width, &height](const std::string& text) { read_size(text, width, height); },
+          "pixels (default: 1280x720)")
+      ->type_name("WIDTHxHEIGHT");
+}
+
+// Numbers between commas; `right` says what they are, with an example.
+std::vector<double> read_numbers(const std::string& option, const std::string& text, const char* right) {
+  std::vector<double> numbers;
   for (const std::string& word : CLI::detail::split(text, ',')) {
-    times.emplace_back();
-    if (!CLI::detail::lexical_cast(word, times.back()))
-      throw CLI::ValidationError("--at", fmt::format("\"{}\" is not a list of times, as in 0,1.5,3", text));
+    numbers.emplace_back();
+    if (!CLI::detail::lexical_cast(word, numbers.back()))
+      throw CLI::ValidationError(option, fmt::format("\"{}\" is not {}", text, right));
   }
-  return times;
+  return numbers;
+}
+
+CLI::Option* add_times(CLI::App& command, const std::string& name, std::vector<double>& times, const char* what) {
+  return command
+      .add_option_function<std::string>(
+          name,
+          [name, &times](const std::string& text) {
+            times = read_numbers(name, text, "a list of times, as in 0,1.5,3");
+          },
+          what)
+      ->type_name("S,...");
+}
+
+viewer::Camera read_camera(const std::string& text) {
+  constexpr const char* kRight = "X,Y,Z,TX,TY,TZ or X,Y,Z,TX,TY,TZ,FOV, as in 0,-80,40,0,0,0";
+  const std::vector<double> n = read_numbers("--camera", text, kRight);
+  if (n.size() != 6 && n.size() != 7)
+    throw CLI::ValidationError("--camera", fmt::format("\"{}\" is not {}", text, kRight));
+  viewer::Camera camera{.eye = {n[0], n[1], n[2]}, .target = {n[3], n[4], n[5]}};
+  if (n.size() == 7) camera.fov_deg = n[6];
+  return camera;
+}
+
+double above_zero(const char* option, double number) {
+  if (!(number > 0)) throw CLI::ValidationError(option, fmt::format("{:g} is not above 0", number));
+  return number;
+}
+
+void add_color(CLI::App& command, viewer::ColorBy& color) {
+  const std::vector<std::string> names(viewer::kColorByNames.begin(), viewer::kColorByNames.end());
+  command
+      .add_option_function<std::string>(
+          "--color",
+          [names, &color](const std::string& name) {
+            color = static_cast<viewer::ColorBy>(std::find(names.begin(), names.end(), name) - names.begin());
+          },
+          fmt::format("what the ground's colours tell: {} (default: {})", fmt::join(names, ", "), names.front()))
+      ->check(CLI::IsMember(names).description(""))
+      ->type_name("NAME");
+}
+
+void add_view_point(CLI::App& command, RenderOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--camera", [&options](const std::string& text) { options.camera = read_camera(text); },
+          "eye and target in the terrain's coordinates, m, and vertical field of view, degrees (default: frames what "
+          "happens, 32 degrees)")
+      ->type_name("X,Y,Z,TX,TY,TZ[,FOV]");
+  command.add_option("--follow", options.follow, "the camera moves along with this body")->type_name("BODY");
 }
 
 void add_render(CLI::App& app, RenderOptions& options) {
   CLI::App& command = *app.add_subcommand("render", "Simulate a scene and draw it, without a display");
   add_scene(command, options.scene);
   add_out(command, options.out, "folder for pictures (default: out/NAME)");
-  command
-      .add_option_function<std::string>(
-          "--at", [&options](const std::string& text) { options.at = read_times(text); },
-          "simulated times, s, as 0,1.5,3 (default: five from start to end)")
-      ->type_name("S,...");
-  command
-      .add_option_function<std::string>(
-          "--size", [&options](const std::string& text) { read_size(text, options); }, "pixels (default: 1280x720)")
-      ->type_name("WIDTHxHEIGHT");
-  command.add_flag("--wireframe", options.wireframe, "hidden lines instead of lit ground");
-  command.add_flag("--sheet", options.sheet, "also all pictures on one sheet, each with its time");
+  CLI::Option* at =
+      add_times(command, "--at", options.at, "simulated times, s, as 0,1.5,3 (default: five from start to end)");
+  add_size(command, options.width, options.height);
+  add_view_point(command, options);
+  CLI::Option* wireframe = command.add_flag("--wireframe", options.wireframe, "hidden lines instead of lit ground");
+  CLI::Option* some = add_times(command, "--wireframe-at", options.wireframe_at, "the same, only for these times");
+  add_color(command, options.color);
+  CLI::Option* sheet = command.add_flag("--sheet", options.sheet, "also all pictures on one sheet, each with its time");
+  CLI::Option* fps = command.add_option_function<double>(
+      "--fps", [&options](double rate) { options.fps = above_zero("--fps", rate); },
+      "numbered pictures over the whole run, so many a second");
+  fps->type_name("N");
+  CLI::Option* video =
+      command.add_option("--video", options.video,
+                         "also a video of them inside DIR (.mp4, .mkv or .mov), where ffmpeg is installed; 30 a second "
+                         "without --fps");
+  video->type_name("FILE");
+  some->excludes(wireframe);
+  for (CLI::Option* series : {fps, video})
+    for (CLI::Option* single : {at, some, sheet}) series->excludes(single);
+  add_threads(command, options.scene);
+}
+
+void add_view(CLI::App& app, ViewOptions& options) {
+  CLI::App& command = *app.add_subcommand("view", "Run a scene live in a window; h shows what keys and mouse do");
+  add_scene(command, options.scene);
+  add_size(command, options.width, options.height);
+  command.add_option("--quality", options.quality, "fast, fine or auto: as fine as the machine can (default: auto)")
+      ->check(CLI::IsMember({"auto", "fast", "fine"}).description(""))
+      ->type_name("NAME");
   add_threads(command, options.scene);
 }
 
@@ -126,11 +206,13 @@ tl::expected<Command, int> parse(int argc, char** argv) {
   CheckOptions check;
   MaterialsOptions materials;
   RenderOptions render;
+  ViewOptions view;
   BenchOptions bench;
   add_run(app, run);
   add_check(app, check);
   add_materials(app, materials);
   add_render(app, render);
+  add_view(app, view);
   add_bench(app, bench);
   try {
     app.parse(argc, argv);
@@ -143,6 +225,7 @@ tl::expected<Command, int> parse(int argc, char** argv) {
   if (app.got_subcommand("check")) return check;
   if (app.got_subcommand("materials")) return materials;
   if (app.got_subcommand("render")) return render;
+  if (app.got_subcommand("view")) return view;
   if (app.got_subcommand("bench")) return bench;
   fmt::print(stderr, "{}", app.help());
   return tl::unexpected(kBadInput);

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <tl/expected.hpp>
 #include <variant>
 #include <vector>
 
 #include "divot/scene.h"
+#include "viewer/camera.h"
+#include "viewer/look.h"
 
 namespace divot::cli {
 
@@ -40,7 +43,19 @@ struct RenderOptions {
   std::vector<double> at;  ///< s; empty: the start and four times evenly spaced to the end
   int width = 1280, height = 720;
   bool wireframe = false;
-  bool sheet = false;  ///< also all pictures on one sheet, each with its time
+  std::vector<double> wireframe_at;  ///< s, some of the pictures' times: only these are lines
+  viewer::ColorBy color = viewer::ColorBy::natural;
+  std::optional<viewer::Camera> camera;  ///< empty: frames what happens
+  std::string follow;                    ///< name of the body that the camera moves along with; empty: none
+  double fps = 0;                        ///< pictures a second over the whole run; 0: single pictures
+  std::string video;                     ///< file inside the folder, made of the pictures at `fps`; empty: none
+  bool sheet = false;                    ///< also all pictures on one sheet, each with its time
+};
+
+struct ViewOptions {
+  SceneOptions scene;
+  int width = 1280, height = 720;  ///< of the window, pixels
+  std::string quality = "auto";    ///< auto, fast or fine
 };
 
 struct BenchOptions {
@@ -51,7 +66,7 @@ struct BenchOptions {
 };
 
 /// What the command line asks for.
-using Command = std::variant<RunOptions, CheckOptions, MaterialsOptions, RenderOptions, BenchOptions>;
+using Command = std::variant<RunOptions, CheckOptions, MaterialsOptions, RenderOptions, ViewOptions, BenchOptions>;
 
 /// Reads the command line. When there is nothing left to do (help, version, bad usage) it has said so and the error is
 /// the exit status.

@@ -9,4 +9,9 @@ int render(const RenderOptions&) {
   return kBadInput;
 }
 
+int view(const ViewOptions&) {
+  fmt::print(stderr, "divot view: this build has no window; configure it with -DDIVOT_VIEWER=ON\n");
+  return kBadInput;
+}
+
 }  // namespace divot::cli

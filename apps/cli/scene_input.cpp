@@ -11,6 +11,8 @@ namespace {
 // --duration is an override like those of --set, but its errors are to name what was typed.
 constexpr const char* kDurationSource = "--set duration";
 
+}  // namespace
+
 Result<Scene> load(const SceneOptions& options) {
   std::vector<Override> overrides = options.overrides;
   if (!options.duration.empty()) overrides.push_back({"duration", options.duration});
@@ -21,8 +23,6 @@ Result<Scene> load(const SceneOptions& options) {
     if (error.file == kDurationSource) error.file = "--duration", error.key.clear();
   return tl::unexpected(std::move(errors));
 }
-
-}  // namespace
 
 Result<World> open_world(const SceneOptions& options) {
   const auto scene = load(options);

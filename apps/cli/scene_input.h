@@ -7,6 +7,9 @@
 
 namespace divot::cli {
 
+/// The scene of a file, changed as the command line asks. Errors name the file or the option they came from.
+Result<Scene> load(const SceneOptions& options);
+
 /// The world of a scene file, changed as the command line asks. Errors name the file or the option they came from.
 Result<World> open_world(const SceneOptions& options);
 

@@ -75,14 +75,15 @@ Result<Image> contact_sheet(std::span<const Image> images, const SheetLayout& la
     height = std::max(height, image.height);
   }
 
-  // Cells of one size, separated by the margin; a last row that is not full stays white.
+  // Cells of one size, separated by the margin; a last row that is not full stands in the middle.
   const int count = static_cast<int>(images.size());
   const int columns = std::min(layout.columns, count), rows = (count + columns - 1) / columns;
   Image sheet{.width = layout.margin + columns * (width + layout.margin),
               .height = layout.margin + rows * (height + layout.margin)};
   sheet.rgb.assign(3 * static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height), 255);
   for (int i = 0; i < count; ++i) {
-    const int x = layout.margin + (i % columns) * (width + layout.margin);
+    const int missing = i / columns == rows - 1 ? rows * columns - count : 0;
+    const int x = layout.margin + (i % columns) * (width + layout.margin) + missing * (width + layout.margin) / 2;
     const int y = layout.margin + (i / columns) * (height + layout.margin);
     paste(images[static_cast<std::size_t>(i)], x, y, sheet);
   }

@@ -23,7 +23,7 @@ Result<void> write_png(const Image& image, const std::string& path);
 
 /// How pictures are laid out on one sheet.
 struct SheetLayout {
-  int columns = 1;  ///< >= 1; pictures fill row after row
+  int columns = 1;  ///< >= 1; pictures fill row after row, the last is centred
   int margin = 8;   ///< pixels of white around each picture, >= 0
 };
 

@@ -11,9 +11,10 @@
 namespace divot::viewer {
 namespace {
 
-constexpr int kShadowSize = 3072;    // texels along a side
-constexpr unsigned kShadowUnit = 1;  // texture unit; captions use 0
-constexpr double kHazeReach = 2.6;   // haze hides 63 % after so many times the distance at which it begins
+constexpr int kFineShadow = 3072, kFastShadow = 1024;  // texels along a side
+constexpr std::size_t kFastOccluders = 6;              // each costs a little in every pixel of the ground
+constexpr unsigned kShadowUnit = 1;                    // texture unit; captions use 0
+constexpr double kHazeReach = 2.6;  // haze hides 63 % after so many times the distance at which it begins
 
 // Linear colours: a low warm sun against a blue sky, and light thrown back by brown ground.
 const osg::Vec3 kSunColor(2.90f, 2.50f, 1.95f);
@@ -26,27 +27,30 @@ osg::Vec3d direction_to(const Sun& sun) {
   return {std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation), std::sin(elevation)};
 }
 
-osg::ref_ptr<osg::Texture2D> make_shadow_map() {
+osg::ref_ptr<osg::Texture2D> make_shadow_map(int size) {
+  const bool fast = size == kFastShadow;
   osg::ref_ptr<osg::Texture2D> map = new osg::Texture2D;
-  map->setTextureSize(kShadowSize, kShadowSize);
-  map->setInternalFormat(GL_DEPTH_COMPONENT24);
+  map->setTextureSize(size, size);
+  map->setInternalFormat(fast ? GL_DEPTH_COMPONENT16 : GL_DEPTH_COMPONENT24);
   map->setSourceFormat(GL_DEPTH_COMPONENT);
-  map->setSourceType(GL_UNSIGNED_INT);
+  map->setSourceType(fast ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT);
   map->setShadowComparison(true);
   map->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR);
   map->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
-  map->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_EDGE);
-  map->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_EDGE);
+  // Beyond it nothing throws shadows.
+  map->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_BORDER);
+  map->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_BORDER);
+  map->setBorderColor(osg::Vec4d(1, 1, 1, 1));
   return map;
 }
 
-osg::ref_ptr<osg::Camera> make_shadow_pass(osg::Texture2D& map) {
+osg::ref_ptr<osg::Camera> make_shadow_pass(osg::Texture2D& map, int size) {
   osg::ref_ptr<osg::Camera> pass = new osg::Camera;
   pass->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
   pass->setRenderOrder(osg::Camera::PRE_RENDER);
   pass->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
   pass->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-  pass->setViewport(0, 0, kShadowSize, kShadowSize);
+  pass->setViewport(0, 0, size, size);
   pass->setClearMask(GL_DEPTH_BUFFER_BIT);
   pass->attach(osg::Camera::DEPTH_BUFFER, &map);
   osg::StateSet* state = pass->getOrCreateStateSet();
@@ -56,18 +60,31 @@ osg::ref_ptr<osg::Camera> make_shadow_pass(osg::Texture2D& map) {
   return pass;
 }
 
+// Lets the traversal through once for each renew().
+struct Gate : osg::NodeCallback {
+  bool open = true;
+  void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
+    if (open) traverse(node, visitor);
+    open = false;
+  }
+};
+
 }  // namespace
 
-Lighting::Lighting(const Sun& sun)
+Lighting::Lighting(const Sun& sun, Quality quality)
     : sun_direction_(direction_to(sun)),
-      shadow_map_(make_shadow_map()),
+      shadow_size_(quality == Quality::fast ? kFastShadow : kFineShadow),
+      shadow_root_(new osg::Group),
+      shadow_map_(make_shadow_map(shadow_size_)),
       uniforms_(new osg::StateSet),
       shadow_matrix_(new osg::Uniform(osg::Uniform::FLOAT_MAT4, "shadow_matrix")),
       shadow_texel_(new osg::Uniform("shadow_texel", 1.0f)),
       haze_range_(new osg::Uniform("haze_range", osg::Vec2(1, 1))),
       occluders_(new osg::Uniform(osg::Uniform::FLOAT_VEC4, "occluders", kMaxOccluders)),
       occluder_count_(new osg::Uniform("occluder_count", 0)) {
-  shadow_pass_ = make_shadow_pass(*shadow_map_);
+  shadow_pass_ = make_shadow_pass(*shadow_map_, shadow_size_);
+  shadow_root_->addChild(shadow_pass_);
+  shadow_root_->setCullCallback(new Gate);
   set_focus({}, 1);
 }
 
@@ -93,8 +110,11 @@ void Lighting::set_focus(const osg::Vec3d& center, double radius) {
   shadow_pass_->setProjectionMatrix(projection);
   shadow_matrix_->set(
       osg::Matrixf(view * projection * osg::Matrixd::translate(1, 1, 1) * osg::Matrixd::scale(0.5, 0.5, 0.5)));
-  shadow_texel_->set(static_cast<float>(2 * radius / kShadowSize));
+  shadow_texel_->set(static_cast<float>(2 * radius / shadow_size_));
+  renew_shadows();
 }
+
+void Lighting::renew_shadows() { dynamic_cast<Gate&>(*shadow_root_->getCullCallback()).open = true; }
 
 void Lighting::set_haze(double distance) { haze_range_->set(osg::Vec2(osg::Vec2d(distance, kHazeReach * distance))); }
 
@@ -103,7 +123,7 @@ void Lighting::set_occluders(const Vec3d& origin, std::span<const BodyView> bodi
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return bodies[a].radius > bodies[b].radius; });
-  order.resize(std::min<std::size_t>(order.size(), kMaxOccluders));
+  order.resize(std::min(order.size(), shadow_size_ == kFastShadow ? kFastOccluders : kMaxOccluders));
   for (std::size_t i = 0; i < order.size(); ++i) {
     const BodyView& body = bodies[order[i]];
     const Vec3d p = body.position - origin;

@@ -7,6 +7,7 @@
 
 #include "divot/views.h"
 #include "viewer/camera.h"
+#include "viewer/look.h"
 
 namespace divot::viewer {
 
@@ -19,13 +20,19 @@ struct Sun {
 /// Sun, sky light, haze and shadows, as uniforms and a shadow map for all that is lit.
 class Lighting {
  public:
-  explicit Lighting(const Sun& sun);
+  Lighting(const Sun& sun, Quality quality);
 
   /// Adds the light to what is drawn under `state`.
   void apply(osg::StateSet& state) const;
 
-  /// The pass that draws what throws shadows as the sun sees it. Put it beside what is lit, and the casters below it.
-  osg::Camera& shadow_pass() { return *shadow_pass_; }
+  /// What throws shadows: children of this are drawn as the sun sees them.
+  osg::Group& casters() { return *shadow_pass_; }
+
+  /// The pass that draws the casters. Put it beside what is lit.
+  osg::Node& shadow_root() { return *shadow_root_; }
+
+  /// The casters have changed: the next picture draws the shadow map anew, otherwise it stays as it is.
+  void renew_shadows();
 
   /// Lays the shadow map over `center` with `radius` (m, relative to the surface's origin; > 0); beyond it nothing
   /// throws shadows.
@@ -34,11 +41,14 @@ class Lighting {
   /// Haze begins at `distance` from the eye, m, > 0.
   void set_haze(double distance);
 
-  /// Bodies darken the ground beneath them. `origin`: the surface's. [O(bodies log bodies)]
+  /// Bodies darken the ground beneath them, and throw round shadows where the quality is fast. `origin`: the surface's.
+  /// [O(bodies log bodies)]
   void set_occluders(const Vec3d& origin, std::span<const BodyView> bodies);
 
  private:
   osg::Vec3d sun_direction_;  // unit, towards the sun
+  int shadow_size_;           // texels along a side
+  osg::ref_ptr<osg::Group> shadow_root_;
   osg::ref_ptr<osg::Camera> shadow_pass_;
   osg::ref_ptr<osg::Texture2D> shadow_map_;
   osg::ref_ptr<osg::StateSet> uniforms_;

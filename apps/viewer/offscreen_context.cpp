@@ -31,8 +31,6 @@ struct OffscreenContext::Handles {
 
 namespace {
 
-constexpr int kSamples = 4;
-
 tl::unexpected<Errors> egl_failure(std::string_view what) {
   return failure(fmt::format("cannot render without a display: {} (EGL error 0x{:04x})", what,
                              static_cast<unsigned>(eglGetError())),
@@ -80,7 +78,7 @@ OffscreenContext::OffscreenContext(OffscreenContext&&) noexcept = default;
 OffscreenContext& OffscreenContext::operator=(OffscreenContext&&) noexcept = default;
 OffscreenContext::~OffscreenContext() = default;
 
-Result<OffscreenContext> OffscreenContext::create(int width, int height) {
+Result<OffscreenContext> OffscreenContext::create(int width, int height, int samples) {
   auto handles = std::make_unique<Handles>();
   handles->display = surfaceless_display();
   if (handles->display == EGL_NO_DISPLAY) return egl_failure("EGL has no surfaceless platform");
@@ -88,7 +86,7 @@ Result<OffscreenContext> OffscreenContext::create(int width, int height) {
   if (!eglBindAPI(EGL_OPENGL_API)) return egl_failure("the EGL driver has no desktop OpenGL");
 
   EGLConfig config = nullptr;
-  if (!choose_config(handles->display, kSamples, config) && !choose_config(handles->display, 0, config)) {
+  if (!choose_config(handles->display, samples, config) && !choose_config(handles->display, 0, config)) {
     return egl_failure("the EGL driver has no off-screen buffer with 24 bits of depth");
   }
   const std::array<EGLint, 5> size = {EGL_WIDTH, width, EGL_HEIGHT, height, EGL_NONE};

@@ -1,13 +1,19 @@
 #pragma once
 
+#include <array>
 #include <osg/Group>
 #include <span>
 
-#include "divot/views.h"
 #include "viewer/body_node.h"
 #include "viewer/bomb_node.h"
+#include "viewer/box_node.h"
 #include "viewer/camera.h"
-#include "viewer/lighting.h"
+#include "viewer/color_scale.h"
+#include "viewer/explosion_node.h"
+#include "viewer/lit_view.h"
+#include "viewer/look.h"
+#include "viewer/particle_node.h"
+#include "viewer/snapshot.h"
 #include "viewer/terrain_node.h"
 
 namespace divot::viewer {
@@ -15,30 +21,54 @@ namespace divot::viewer {
 /// All that a picture or a window shows of a world, but not where it is shown.
 class SceneGraph {
  public:
-  /// `wireframe`: lines on paper instead of lit ground. It says what kind of drawing this is, for good.
-  SceneGraph(const Sun& sun, bool wireframe);
+  SceneGraph(const Sun& sun, const Look& look);
 
-  /// Takes over the world as it is now; see TerrainNode::update for `dirty` and its cost.
-  void update(const SurfaceView& surface, std::span<const DirtyRange> dirty, std::span<const BodyView> bodies,
-              std::span<const BombView> bombs, const Sinkage& sinkage);
+  /// From now on draws like this. Takes effect on the next update().
+  void set_look(const Look& look);
+  const Look& look() const { return look_; }
 
-  /// Fits shadows, haze, detail and the size of bombs to what is looked at: `region` from `camera`. Call it before
+  /// Takes over the world as it is now; see TerrainNode::update for its cost.
+  void update(const Snapshot& snapshot);
+
+  /// Fits detail of the ground and the size of bombs to `region`, and lights what `camera` sees of it. Call it before
   /// update().
   void set_view(const Vec3d& origin, const Region& region, const Camera& camera);
 
+  /// Moves shadows and haze to `region`, seen from `camera`.
+  void set_focus(const Vec3d& origin, const Region& region, const Camera& camera);
+
+  /// Where the world is looked at from, m, relative to the surface's origin: dust is sorted by it.
+  void set_eye(const osg::Vec3d& eye) { eye_ = eye; }
+
+  /// Shows these boxes; none hides them.
+  void set_boxes(std::span<const std::pair<Vec3, Vec3>> boxes) { boxes_.update(boxes); }
+
+  /// What the ground's colours tell now.
+  const ColorScale& scale() const { return scale_; }
+
+  TerrainNode& terrain() { return terrain_; }
   osg::Group& root() { return *root_; }
 
  private:
-  void build_lit();
-  void build_wireframe();
+  void show_scale(const Snapshot& snapshot);
+  void renew_shadows(bool ground_moved);
+  LitView& lit() { return look_.quality == Quality::fast ? fast_ : fine_; }
 
   osg::ref_ptr<osg::Group> root_;
   TerrainNode terrain_;
-  BodyNode bodies_;
+  BodyNode bodies_, line_bodies_;
   BombNode bombs_;
-  Lighting lighting_;
-  double extent_ = 1;  // m, of the region that is looked at
-  osg::ref_ptr<osg::Uniform> height_range_, detail_wave_, sinkage_scale_, ink_cell_;
+  ParticleNode particles_;
+  ExplosionNode explosions_;
+  BoxNode boxes_;
+  LitView fine_, fast_;
+  Look look_;
+  ColorScale scale_;
+  osg::Vec3d eye_;
+  double extent_ = 1;        // m, of the region that is looked at
+  int pictures_behind_ = 0;  // that the shadows of moving ground are
+  osg::ref_ptr<osg::Uniform> height_range_, detail_wave_, sinkage_scale_, ink_cell_, color_by_, ramp_, ramp_range_;
+  osg::ref_ptr<osg::Group> lines_;
 };
 
 }  // namespace divot::viewer

@@ -2,6 +2,8 @@
 
 #include <osg/Program>
 
+#include "viewer/look.h"
+
 namespace divot::viewer {
 
 /// Most bodies that darken the ground beneath them; the largest are taken.
@@ -10,11 +12,14 @@ inline constexpr int kMaxOccluders = 16;
 // The programs of the picture, GLSL 1.30 with OpenGL's compatibility built-ins. Positions in them are the surface's, in
 // metres relative to its origin. What their uniforms mean stands with the uniforms in lighting.h and scene_graph.cpp.
 
-osg::ref_ptr<osg::Program> ground_program();      ///< terrain coloured by slope, height and disturbance
-osg::ref_ptr<osg::Program> wall_program();        ///< the cut through the soil where the terrain ends
-osg::ref_ptr<osg::Program> ball_program();        ///< spheres: bodies with a pattern that shows rolling, bombs without
-osg::ref_ptr<osg::Program> depth_program();       ///< what the sun sees
-osg::ref_ptr<osg::Program> background_program();  ///< gradient behind everything
-osg::ref_ptr<osg::Program> ink_program();         ///< one colour without light: lines and fillings of the wireframe
+/// Terrain coloured by slope, height and disturbance; or by the number that `color_by` asks for.
+osg::ref_ptr<osg::Program> ground_program(Quality quality, bool numbers);
+osg::ref_ptr<osg::Program> wall_program(Quality quality);  ///< the cut through the soil where the terrain ends
+osg::ref_ptr<osg::Program> ball_program(Quality quality);  ///< spheres: bodies with a pattern that shows rolling
+osg::ref_ptr<osg::Program> depth_program();                ///< what the sun sees
+osg::ref_ptr<osg::Program> background_program();           ///< gradient behind everything
+osg::ref_ptr<osg::Program> ink_program();    ///< one colour without light: lines and fillings of the wireframe
+osg::ref_ptr<osg::Program> point_program();  ///< points and lines without light
+osg::ref_ptr<osg::Program> puff_program();   ///< dust and flashes
 
 }  // namespace divot::viewer

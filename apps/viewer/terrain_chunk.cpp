@@ -6,6 +6,9 @@
 namespace divot::viewer {
 namespace {
 
+// What moves of a vertex: position, normal, sinkage.
+constexpr std::size_t kVertex = 2 * sizeof(osg::Vec3) + sizeof(osg::Vec2);
+
 osg::ref_ptr<osg::Geometry> make_geometry(osg::Vec3Array& positions, osg::Vec3Array& normals, osg::Vec2Array& depth) {
   osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
   geometry->setDataVariance(osg::Object::DYNAMIC);
@@ -53,6 +56,9 @@ TerrainChunk::TerrainChunk(const SurfaceView& surface, std::span<const std::uint
   normals_ = new osg::Vec3Array(static_cast<unsigned>(vertices_.size()));
   sinkage_ = new osg::Vec2Array(static_cast<unsigned>(vertices_.size()));
   ground_ = make_geometry(*positions_, *normals_, *sinkage_);
+  marks_ = new osg::Vec4ubArray(static_cast<unsigned>(vertices_.size()));
+  for (std::size_t i = 0; i < vertices_.size(); ++i) (*marks_)[i].set(0, surface.materials[vertices_[i]], 0, 0);
+  ground_->setVertexAttribArray(kMarkAttribute, marks_, osg::Array::BIND_PER_VERTEX);
   ground_->addPrimitiveSet(
       new osg::DrawElementsUInt(GL_TRIANGLES, static_cast<unsigned>(3 * own_count_), corners_.data()));
 
@@ -102,7 +108,7 @@ bool TerrainChunk::touches(std::span<const DirtyRange> dirty) const {
   return false;
 }
 
-void TerrainChunk::refresh(const SurfaceView& surface, const Sinkage& sinkage) {
+std::size_t TerrainChunk::refresh(const SurfaceView& surface, const Sinkage& sinkage) {
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     const Vec3& p = surface.positions[vertices_[i]];
     (*positions_)[i].set(p.x, p.y, p.z);
@@ -112,6 +118,30 @@ void TerrainChunk::refresh(const SurfaceView& surface, const Sinkage& sinkage) {
   refresh_sinkage(sinkage);
   ground_->dirtyBound();
   if (wall_) refresh_wall();
+  return kVertex * (vertices_.size() + (wall_ ? wall_positions_->size() : 0));
+}
+
+std::size_t TerrainChunk::mark_awake(std::span<const std::uint32_t> awake) {
+  if (vertices_.empty()) return 0;
+  std::vector<std::uint32_t> now;
+  const auto first = std::lower_bound(awake.begin(), awake.end(), vertices_.front());
+  auto local = vertices_.begin();
+  for (auto id = first; id != awake.end() && *id <= vertices_.back(); ++id) {
+    local = std::lower_bound(local, vertices_.end(), *id);
+    if (local != vertices_.end() && *local == *id) now.push_back(static_cast<std::uint32_t>(local - vertices_.begin()));
+  }
+  if (now == awake_) return 0;
+  for (const std::uint32_t vertex : awake_) (*marks_)[vertex].x() = 0;
+  for (const std::uint32_t vertex : now) (*marks_)[vertex].x() = 1;
+  awake_ = std::move(now);
+  marks_->dirty();
+  return marks_->getTotalDataSize();
+}
+
+std::size_t TerrainChunk::size_bytes() const {
+  const std::size_t walls = wall_ ? wall_positions_->size() : 0;
+  return kVertex * (vertices_.size() + walls) + marks_->getTotalDataSize() +
+         sizeof(std::uint32_t) * (3 * own_count_ + walls / 4 * 6);
 }
 
 // The cross product is twice the triangle's area long, which is just the weight its normal should have.
@@ -128,9 +158,11 @@ void TerrainChunk::refresh_normals() {
 }
 
 void TerrainChunk::refresh_sinkage(const Sinkage& sinkage) {
+  largest_sinkage_ = 0;
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     const float sunk = sinkage ? sinkage(vertices_[i]) : 0.0f;
     (*sinkage_)[i].set(sunk, std::abs(sunk));
+    largest_sinkage_ = std::max(largest_sinkage_, std::abs(sunk));
   }
   // Each corner takes the largest of its triangles; from the unspread values, so that it spreads by one ring only.
   for (std::size_t c = 0; c < corners_.size(); c += 3) {

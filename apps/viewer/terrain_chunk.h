@@ -18,6 +18,9 @@ using Sinkage = std::function<float(std::uint32_t vertex)>;
 /// sinkage itself is 0.
 inline constexpr unsigned kSinkageAttribute = 6;
 
+/// Vertex attribute of two small numbers: 1 where the vertex is an awake particle, and its material.
+inline constexpr unsigned kMarkAttribute = 7;
+
 /// A part of the terrain small enough to be sent again as a whole when one of its vertices moved.
 ///
 /// It keeps copies of its vertices and also knows the triangles of its neighbours that touch them (the fringe), so that
@@ -33,8 +36,19 @@ class TerrainChunk {
   /// [O(ranges within its ids * log vertices)]
   bool touches(std::span<const DirtyRange> dirty) const;
 
-  /// Copies positions and sinkage, recomputes normals and marks them for upload. [O(vertices + triangles)]
-  void refresh(const SurfaceView& surface, const Sinkage& sinkage);
+  /// Copies positions and sinkage, recomputes normals and marks them for upload. Returns how many bytes will be sent.
+  /// [O(vertices + triangles)]
+  std::size_t refresh(const SurfaceView& surface, const Sinkage& sinkage);
+
+  /// Marks which vertices are awake; `awake`: ids, ascending. Returns how many bytes will be sent: none when the same
+  /// vertices are awake as before. [O(vertices awake here + log awake)]
+  std::size_t mark_awake(std::span<const std::uint32_t> awake);
+
+  /// Largest |sinkage| of its vertices at the last refresh(), m.
+  float largest_sinkage() const { return largest_sinkage_; }
+
+  /// Bytes of all its vertices and indices.
+  std::size_t size_bytes() const;
 
   osg::Geometry& ground() { return *ground_; }
   /// Null where the terrain does not end within the chunk.
@@ -51,11 +65,14 @@ class TerrainChunk {
   std::vector<std::uint32_t> vertices_;  // [local vertex] id, ascending
   std::vector<std::uint32_t> corners_;   // [3 * triangle + corner] local vertex; own triangles first
   std::size_t own_count_;                // triangles that are drawn
+  std::vector<std::uint32_t> awake_;     // local vertices that are marked so, ascending
+  float largest_sinkage_ = 0;            // m
   std::vector<std::uint32_t> border_;    // [2 * edge + end] local vertices of edges with ground on one side only
   float base_;                           // m
   osg::ref_ptr<osg::Geometry> ground_, wall_;
   osg::ref_ptr<osg::Vec3Array> positions_, normals_, wall_positions_, wall_normals_;
   osg::ref_ptr<osg::Vec2Array> sinkage_, wall_depth_;
+  osg::ref_ptr<osg::Vec4ubArray> marks_;  // four bytes, as cards like them aligned
 };
 
 }  // namespace divot::viewer

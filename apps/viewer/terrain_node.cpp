@@ -101,12 +101,25 @@ void TerrainNode::update(const SurfaceView& surface, std::span<const DirtyRange>
     return rebuild(surface, sinkage);
   }
   for (TerrainChunk& chunk : chunks_) {
-    if (chunk.touches(dirty)) chunk.refresh(surface, sinkage);
+    if (!chunk.touches(dirty)) continue;
+    uploaded_bytes_ += chunk.refresh(surface, sinkage);
+    largest_sinkage_ = std::max(largest_sinkage_, chunk.largest_sinkage());
   }
+}
+
+void TerrainNode::mark_awake(std::span<const std::uint32_t> awake) {
+  for (TerrainChunk& chunk : chunks_) uploaded_bytes_ += chunk.mark_awake(awake);
+}
+
+std::uint64_t TerrainNode::size_bytes() const {
+  std::uint64_t sum = 0;
+  for (const TerrainChunk& chunk : chunks_) sum += chunk.size_bytes();
+  return sum;
 }
 
 void TerrainNode::rebuild(const SurfaceView& surface, const Sinkage& sinkage) {
   measure(surface, sinkage);
+  largest_sinkage_ = 0;
   chunks_.clear();
   ground_->removeChildren(0, ground_->getNumChildren());
   walls_->removeChildren(0, walls_->getNumChildren());
@@ -126,6 +139,8 @@ void TerrainNode::rebuild(const SurfaceView& surface, const Sinkage& sinkage) {
     if (own.row(cell).empty()) continue;
     TerrainChunk& chunk = chunks_.emplace_back(surface, own.row(cell), fringe.row(cell), base);
     chunk.refresh(surface, sinkage);
+    largest_sinkage_ = std::max(largest_sinkage_, chunk.largest_sinkage());
+    uploaded_bytes_ += chunk.size_bytes();
     ground_->addChild(&chunk.ground());
     if (chunk.wall()) walls_->addChild(chunk.wall());
   }

@@ -19,6 +19,9 @@ class TerrainNode {
   /// then O(chunks + dirty chunks)]
   void update(const SurfaceView& surface, std::span<const DirtyRange> dirty, const Sinkage& sinkage);
 
+  /// Marks which vertices are awake particles; ids, ascending. [O(chunks + awake)]
+  void mark_awake(std::span<const std::uint32_t> awake);
+
   osg::Group& ground() { return *ground_; }
   osg::Group& walls() { return *walls_; }
 
@@ -26,6 +29,14 @@ class TerrainNode {
   /// change with it.
   float lowest() const { return lowest_; }
   float highest() const { return highest_; }
+  /// Largest |sinkage| so far, m.
+  float largest_sinkage() const { return largest_sinkage_; }
+
+  /// Bytes of vertices and indices that were handed over to be sent to the graphics card, since the node was made.
+  std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }
+  /// Bytes that sending everything takes. [O(chunks)]
+  std::uint64_t size_bytes() const;
+
   /// Bounds when the chunks were made, in the terrain's coordinates.
   const Region& bounds() const { return bounds_; }
 
@@ -37,7 +48,8 @@ class TerrainNode {
   std::vector<TerrainChunk> chunks_;
   std::size_t vertex_count_ = 0, corner_count_ = 0;
   Region bounds_;
-  float lowest_ = 0, highest_ = 0;
+  float lowest_ = 0, highest_ = 0, largest_sinkage_ = 0;
+  std::uint64_t uploaded_bytes_ = 0;
 };
 
 }  // namespace divot::viewer

@@ -1,0 +1,130 @@
+#pragma once
+
+// Balls, lines, points, dust and what is behind everything, in GLSL.
+namespace divot::viewer::glsl {
+
+inline constexpr char kBallVertex[] = R"(#version 130
+uniform mat4 osg_ViewMatrixInverse;
+out vec3 world, facing, local;
+void main() {
+  local = gl_Vertex.xyz;
+  world = (osg_ViewMatrixInverse * (gl_ModelViewMatrix * gl_Vertex)).xyz;
+  facing = mat3(osg_ViewMatrixInverse) * (gl_NormalMatrix * gl_Normal);
+  gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
+}
+)";
+
+inline constexpr char kBallFragment[] = R"(
+uniform vec3 ball_color, pattern_color;
+in vec3 local;
+
+// 1 within `width` of a line at 0, smooth over a pixel.
+float line(float x, float width) {
+  float edge = fwidth(x) * 0.75;
+  return 1.0 - smoothstep(width - edge, width + edge, abs(x));
+}
+
+void main() {
+  // Eight meridians and the equator, as on a globe.
+  vec3 p = normalize(local);
+  float ring = length(p.xy);
+  // ring sin(4 angle) / 4, without the angle.
+  float meridian = p.x * p.y * (p.x * p.x - p.y * p.y) / max(ring * ring * ring, 1e-9);
+  float mark = max(line(meridian, 0.014) * smoothstep(0.10, 0.14, ring), line(p.z, 0.045));
+  vec3 n = normalize(facing);
+  // Light that the ground throws back is weak below, where ball and ground meet.
+  float open = 0.55 + 0.45 * smoothstep(-1.0, 0.2, n.z);
+  gl_FragColor = vec4(shade(mix(ball_color, pattern_color, mark), n, open, 0.12), 1.0);
+}
+)";
+
+inline constexpr char kDepthVertex[] = R"(#version 130
+void main() { gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex; }
+)";
+
+inline constexpr char kDepthFragment[] = R"(#version 130
+void main() { gl_FragColor = vec4(1.0); }
+)";
+
+inline constexpr char kBackgroundVertex[] = R"(#version 130
+uniform vec3 background_top, background_bottom;
+out vec3 color;
+void main() {
+  color = mix(background_bottom, background_top, smoothstep(0.0, 1.0, 0.5 + 0.5 * gl_Vertex.y));
+  gl_Position = vec4(gl_Vertex.xy, 1.0, 1.0);
+}
+)";
+
+inline constexpr char kBackgroundFragment[] = R"(#version 130
+in vec3 color;
+void main() {
+  // Half a step of noise hides the bands of 8-bit colour.
+  float dither = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
+  gl_FragColor = vec4(color + dither / 255.0, 1.0);
+}
+)";
+
+inline constexpr char kInkVertex[] = R"(
+uniform vec3 ink, turned_ink, paper;
+uniform float ink_cell, sinkage_scale;
+in vec2 sinkage;
+in vec4 mark;
+out vec3 color;
+void main() {
+  vec4 p = gl_ModelViewProjectionMatrix * gl_Vertex;
+  // Lines closer than a few pixels would melt into a dark mass: they give way to paper.
+  float cell = ink_cell > 0.0 ? ink_cell * gl_ProjectionMatrix[1][1] / max(p.w, 1e-6) : 1.0;
+  vec3 line = mix(ink, turned_ink, smoothstep(0.02, 0.08, sinkage.y / sinkage_scale));
+  if (color_by != 0) line = sqrt(ramp_color(shown_number(gl_Vertex.xyz, normalize(gl_Normal), sinkage.x, mark)));
+  color = mix(paper, line, 0.12 + 0.88 * smoothstep(0.002, 0.020, cell));
+  gl_Position = p;
+}
+)";
+
+inline constexpr char kInkFragment[] = R"(#version 130
+in vec3 color;
+void main() { gl_FragColor = vec4(color, 1.0); }
+)";
+
+// Points as large as `point_size` metres but never too small to be seen, drawn a little nearer than the ground they are
+// on.
+inline constexpr char kPointVertex[] = R"(#version 130
+uniform float point_size;
+out vec4 tint;
+void main() {
+  tint = gl_Color;
+  gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
+  gl_PointSize = clamp(point_size * gl_ProjectionMatrix[1][1] / max(gl_Position.w, 1e-6), 2.0, 7.0);
+  gl_Position.z -= 1e-4 * gl_Position.w;
+}
+)";
+
+inline constexpr char kTintFragment[] = R"(#version 130
+in vec4 tint;
+void main() { gl_FragColor = tint; }
+)";
+
+// Soft round dabs that face the eye. The texture coordinate holds the corner, -1 or 1, and the radius in metres.
+// Colours are multiplied by their opacity beforehand, so that flashes can add light.
+inline constexpr char kPuffVertex[] = R"(#version 130
+out vec2 corner;
+out vec4 tint;
+void main() {
+  corner = gl_MultiTexCoord0.xy;
+  tint = gl_Color;
+  vec4 place = gl_ModelViewMatrix * gl_Vertex;
+  place.xy += corner * gl_MultiTexCoord0.z;
+  gl_Position = gl_ProjectionMatrix * place;
+}
+)";
+
+inline constexpr char kPuffFragment[] = R"(#version 130
+in vec2 corner;
+in vec4 tint;
+void main() {
+  float soft = max(1.0 - dot(corner, corner), 0.0);
+  gl_FragColor = tint * soft * soft;
+}
+)";
+
+}  // namespace divot::viewer::glsl

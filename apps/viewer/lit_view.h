@@ -1,0 +1,36 @@
+#pragma once
+
+#include <osg/Group>
+
+#include "viewer/lighting.h"
+#include "viewer/look.h"
+
+namespace divot::viewer {
+
+/// What is drawn, before it is decided how.
+struct Subjects {
+  osg::Group& ground;
+  osg::Group& walls;
+  osg::Group& bodies;
+  osg::Group& bombs;
+};
+
+/// The world in sunlight, before a sky.
+class LitView {
+ public:
+  LitView(const Subjects& subjects, const Sun& sun, Quality quality);
+
+  /// Whether the ground shows the number that `color_by` asks for, or its natural colours.
+  void show_numbers(bool shown);
+
+  osg::Group& root() { return *root_; }
+  Lighting& lighting() { return lighting_; }
+
+ private:
+  osg::ref_ptr<osg::Program> natural_, numbers_;
+  osg::ref_ptr<osg::Group> ground_;
+  osg::ref_ptr<osg::Group> root_;
+  Lighting lighting_;
+};
+
+}  // namespace divot::viewer

@@ -1,0 +1,242 @@
+#include "viewer/window.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <thread>
+
+#include "viewer/display.h"
+#include "viewer/failure.h"
+#include "viewer/hud.h"
+#include "viewer/live_view.h"
+#include "viewer/pixel_reader.h"
+#include "viewer/saves.h"
+#include "viewer/screen.h"
+
+namespace divot::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kLeastSize = 64, kLargestSize = 16384;
+constexpr double kMostPictures = 60;   // a second: displays that wait for their own rate are slower or as fast
+constexpr double kLongestWait = 0.25;  // s that one picture can let pass
+constexpr double kMessageTime = 4;     // s
+constexpr double kMeterShare = 0.06;   // of the newest picture in what is shown
+constexpr double kSlowPicture = 0.035, kPatience = 2;  // s; so long of such pictures make the quality fast
+
+double seconds(Clock::duration span) { return std::chrono::duration<double>(span).count(); }
+
+Result<void> check(const WindowOptions& options) {
+  const auto is_size = [](int size) { return size >= kLeastSize && size <= kLargestSize; };
+  if (is_size(options.width) && is_size(options.height)) return {};
+  return failure(fmt::format("a window of {} x {} pixels cannot be opened", options.width, options.height),
+                 fmt::format("{} to {} pixels each way", kLeastSize, kLargestSize), "size");
+}
+
+}  // namespace
+
+struct Window::Impl {
+  Impl(LiveWorld live, const WindowOptions& asked, Quality first, osg::ref_ptr<osgViewer::Viewer> screen);
+
+  void carry_out_commands();
+  void window_action(Action action);
+  void follow_size();
+  void place_camera();
+  void update_hud();
+  void draw();
+  void measure(double drawing);
+  void wait();
+  void say(const std::string& text);
+  void save_picture();
+  void save_world();
+
+  WindowOptions options;
+  osg::ref_ptr<osgViewer::Viewer> viewer;
+  LiveView view;
+  Hud hud;
+  osg::ref_ptr<Input> input = new Input;
+  osg::ref_ptr<PixelReader> reader = new PixelReader;
+  StageMeter stages;
+  int width = 0, height = 0;  // pixels
+  bool help = false, picture_wanted = false;
+  Clock::time_point start = Clock::now(), last = start, message_end = start;
+  std::string message;
+  double drawing_ms = 0, frame_time = 1 / kMostPictures, slow_time = 0, uploaded = 0;
+  std::uint64_t pictures = 0, uploaded_before = 0;
+};
+
+Window::Impl::Impl(LiveWorld live, const WindowOptions& asked, Quality first, osg::ref_ptr<osgViewer::Viewer> screen)
+    : options(asked),
+      viewer(std::move(screen)),
+      view(std::move(live), {.quality = first, .effects = asked.effects},
+           static_cast<double>(asked.width) / asked.height) {
+  osg::ref_ptr<osg::Group> root = new osg::Group;
+  root->addChild(&view.scene().root());
+  if (options.show_numbers) root->addChild(&hud.root());
+  viewer->setSceneData(root);
+  viewer->addEventHandler(input);
+  if (options.paused) view.carry_out(Action::pause, {}, 1);
+}
+
+void Window::Impl::carry_out_commands() {
+  const double aspect = static_cast<double>(width) / height;
+  for (const Command& command : input->take()) {
+    view.carry_out(command, input->mouse(), aspect);
+    if (const auto* action = std::get_if<Action>(&command)) window_action(*action);
+  }
+  if (const std::string text = view.take_message(); !text.empty()) say(text);
+}
+
+void Window::Impl::window_action(Action action) {
+  if (action == Action::quit) viewer->setDone(true);
+  if (action == Action::help) help = !help;
+  if (action == Action::screenshot) picture_wanted = true;
+  if (action == Action::save_state) save_world();
+}
+
+void Window::Impl::say(const std::string& text) {
+  message = text;
+  message_end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kMessageTime));
+}
+
+void Window::Impl::save_picture() {
+  picture_wanted = false;
+  const std::string& name = view.live().world().scene().name;
+  const std::string path = free_path(options.folder, name.empty() ? "divot" : name, ".png");
+  const auto written = write_png(reader->image(), path);
+  say(written ? "saved " + path : written.error().front().text());
+}
+
+void Window::Impl::save_world() {
+  const auto saved = viewer::save_state(view.live().world(), options.folder, seconds(Clock::now() - start));
+  say(saved ? "saved " + *saved : saved.error().front().text());
+}
+
+// The window's size is the viewport's, which follows every resize.
+void Window::Impl::follow_size() {
+  const osg::Viewport& viewport = *viewer->getCamera()->getViewport();
+  const int now_wide = std::max(static_cast<int>(viewport.width()), 1);
+  const int now_high = std::max(static_cast<int>(viewport.height()), 1);
+  if (now_wide == width && now_high == height) return;
+  width = now_wide;
+  height = now_high;
+  hud.resize(width, height);
+}
+
+void Window::Impl::place_camera() {
+  const Camera camera = view.camera();
+  const Vec3d origin = view.live().world().surface().origin, eye = camera.eye - origin, target = camera.target - origin;
+  viewer->getCamera()->setViewMatrixAsLookAt({eye.x, eye.y, eye.z}, {target.x, target.y, target.z}, {0, 0, 1});
+  // Near and far follow from what is drawn.
+  viewer->getCamera()->setProjectionMatrixAsPerspective(camera.fov_deg, static_cast<double>(width) / height, 1, 1000);
+}
+
+void Window::Impl::update_hud() {
+  const LiveWorld& live = view.live();
+  const World& world = live.world();
+  stages.update(world.stages());
+  const std::uint64_t sent = view.scene().terrain().uploaded_bytes();
+  uploaded += kMeterShare * (static_cast<double>(sent - uploaded_before) - uploaded);
+  uploaded_before = sent;
+  const auto now = Clock::now();
+  if (now > message_end) message.clear();
+  hud.update({.time = world.time(),
+              .real_time_factor = live.real_time_factor(),
+              .speed = live.speed(),
+              .paused = live.paused(),
+              .lagging = live.lagging(),
+              .pictures_per_second = 1 / frame_time,
+              .awake = world.particles().vertices.size(),
+              .uploaded = uploaded,
+              .stages = stages.rows(),
+              .drawing_ms = drawing_ms,
+              .yield = view.toolbox().yield(),
+              .body = view.toolbox().body_text(),
+              .followed = view.followed(),
+              .message = message,
+              .scale = &view.scene().scale(),
+              .height_offset = world.surface().origin.z,
+              .help = help},
+             seconds(now - start));
+}
+
+void Window::Impl::draw() {
+  const auto begin = Clock::now();
+  viewer->getCamera()->setFinalDrawCallback(picture_wanted ? reader : nullptr);
+  viewer->updateTraversal();
+  viewer->renderingTraversals();
+  ++pictures;
+  measure(seconds(Clock::now() - begin));
+  if (picture_wanted) save_picture();
+}
+
+void Window::Impl::measure(double drawing) {
+  drawing_ms += kMeterShare * (1e3 * drawing - drawing_ms);
+  slow_time = drawing > kSlowPicture ? slow_time + drawing : 0;
+  if (options.quality || view.scene().look().quality == Quality::fast || slow_time < kPatience) return;
+  view.set_quality(Quality::fast);
+}
+
+// Sleeps where the display does not wait itself.
+void Window::Impl::wait() {
+  const auto due = last + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / kMostPictures));
+  std::this_thread::sleep_until(due);
+}
+
+Window::Window(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Window::Window(Window&&) noexcept = default;
+Window& Window::operator=(Window&&) noexcept = default;
+Window::~Window() = default;
+
+Result<Window> Window::create(const Scene& scene, std::shared_ptr<const Jobs> jobs, const WindowOptions& options) {
+  if (const auto checked = check(options); !checked) return tl::unexpected(checked.error());
+  const auto display = open_display();
+  if (!display) return tl::unexpected(display.error());
+  const Quality quality = options.quality.value_or(display->accelerated ? Quality::fine : Quality::fast);
+  auto live = LiveWorld::create(scene, std::move(jobs));
+  if (!live) return tl::unexpected(live.error());
+  const std::string title = scene.name.empty() ? "divot" : "divot: " + scene.name;
+  auto screen = open_screen(options.width, options.height, samples_of(quality), title);
+  if (!screen) return tl::unexpected(screen.error());
+  return Window(std::make_unique<Impl>(std::move(*live), options, quality, *screen));
+}
+
+bool Window::frame() {
+  Impl& w = *impl_;
+  if (w.viewer->done() || !w.viewer->isRealized()) return false;
+  w.wait();
+  const auto now = Clock::now();
+  const double passed = seconds(now - w.last);
+  w.last = now;
+  w.frame_time += kMeterShare * (passed - w.frame_time);
+  w.viewer->advance();
+  w.viewer->eventTraversal();
+  if (w.viewer->done() || !w.viewer->isRealized()) return false;
+  w.follow_size();
+  w.carry_out_commands();
+  w.view.advance(std::min(passed, kLongestWait));
+  w.view.update();
+  w.place_camera();
+  if (w.options.show_numbers) w.update_hud();
+  w.draw();
+  return true;
+}
+
+WindowReport Window::run() {
+  while (frame()) {
+  }
+  return {.pictures = impl_->pictures,
+          .seconds = seconds(Clock::now() - impl_->start),
+          .uploaded_bytes = impl_->view.scene().terrain().uploaded_bytes()};
+}
+
+Image Window::capture() {
+  impl_->viewer->getCamera()->setFinalDrawCallback(impl_->reader);
+  impl_->viewer->renderingTraversals();
+  return impl_->reader->image();
+}
+
+Camera Window::camera() const { return impl_->view.camera(); }
+
+}  // namespace divot::viewer

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "divot/errors.h"
+#include "divot/jobs.h"
+#include "divot/scene.h"
+#include "viewer/camera.h"
+#include "viewer/image.h"
+#include "viewer/look.h"
+
+namespace divot::viewer {
+
+/// How a window begins.
+struct WindowOptions {
+  int width = 1280, height = 720;       ///< pixels, [64, 16384]
+  std::optional<Quality> quality = {};  ///< empty: fine on a graphics card as long as it keeps up, else fast
+  bool paused = false;
+  bool show_numbers = true;  ///< the heads-up display
+  bool effects = true;       ///< flash and dust of explosions
+  std::string folder = ".";  ///< for pictures and states that are saved from it
+};
+
+/// What a window has done.
+struct WindowReport {
+  std::uint64_t pictures = 0;
+  double seconds = 0;  ///< since the first picture
+  std::uint64_t uploaded_bytes = 0;
+};
+
+/// A world that runs in a window with the clock on the wall, and what mouse and keys do to it.
+class Window {
+ public:
+  /// Opens it. Fails like World::create, when options are out of range (key `size`), or when there is no display that a
+  /// window could be opened on (key `display`).
+  static Result<Window> create(const Scene& scene, std::shared_ptr<const Jobs> jobs, const WindowOptions& options = {});
+
+  Window(Window&&) noexcept;
+  Window& operator=(Window&&) noexcept;
+  ~Window();
+
+  /// Takes events, lets time pass and draws one picture. False when the window was closed: nothing was drawn.
+  bool frame();
+
+  /// Draws pictures until the window is closed.
+  WindowReport run();
+
+  /// The picture that is shown.
+  Image capture();
+
+  Camera camera() const;
+
+ private:
+  struct Impl;
+  explicit Window(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace divot::viewer
