@@ -35,7 +35,7 @@ void ParticleNode::update(const ParticleView& particles, double spacing) {
   colors_->resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     (*positions_)[i].set(particles.x[i], particles.y[i], particles.z[i]);
-    (*colors_)[i] = particles.fixed[i] ? kFixed : kMoving;
+    (*colors_)[i] = particles.hold[i] == Hold::anchor ? kFixed : kMoving;
   }
   positions_->dirty();
   colors_->dirty();
