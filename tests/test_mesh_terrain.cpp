@@ -119,7 +119,7 @@ TEST(MeshTerrain, RandomGroundHasItsHeights) {
   for (int round = 0; round < 20; ++round) {
     MeshTerrain mesh = patch(12, 9, 2);
     for (Vec3d& p : mesh.vertices) p += Vec3d{random.in(-0.4, 0.4), random.in(-0.4, 0.4), random.in(-3.0, 3.0)};
-    const World world = make_world(scene_on(mesh, "sand"));
+    const World world = make_world(scene_on(mesh, "dry_sand"));
     for (const Vec3d& p : mesh.vertices) {
       const double z = world.ground_height(p.x, p.y);
       if (std::isnan(z)) continue;  // at the border rounding may lose it
@@ -131,7 +131,7 @@ TEST(MeshTerrain, RandomGroundHasItsHeights) {
 }
 
 TEST(MeshTerrain, ABombLeavesTheCraterItLeavesOnAGrid) {
-  Scene on_mesh = scene_on(patch(61, 61, 1, {}), "sand");
+  Scene on_mesh = scene_on(patch(61, 61, 1, {}), "dry_sand");
   on_mesh.bombs = {{.position = {0.5, 0.5, 0}, .above_ground = true, .yield = 0.05}};
   Scene on_grid = on_mesh;
   on_grid.terrain.shape = GridTerrain{.columns = 61, .rows = 61, .spacing = 1};
@@ -167,7 +167,7 @@ TEST(MeshTerrain, ABallRollsAndLeavesARut) {
 TEST(MeshTerrain, HasNoRasterAndWritesTheRest) {
   const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "divot_mesh_terrain";
   std::filesystem::remove_all(folder);
-  Scene scene = scene_on(patch(9, 9, 1), "sand");
+  Scene scene = scene_on(patch(9, 9, 1), "dry_sand");
   scene.output.formats = {"ply", "tif", "csv"};
   World world = make_world(scene);
   world.step();
