@@ -1,9 +1,16 @@
 #include "bench/bench.h"
+#ifdef DIVOT_HAS_VIEWER
+#include "bench/upload.h"
+#endif
 
 namespace divot::bench {
 
 std::span<const Bench> benches() {
-  static constexpr Bench kBenches[] = {{"figure1", "parts of a step by update policy, the paper's Figure 1", &figure1}};
+  static constexpr Bench kBenches[] = {{"figure1", "parts of a step by update policy, the paper's Figure 1", &figure1},
+#ifdef DIVOT_HAS_VIEWER
+                                       {"upload", "bytes and time of pictures by what is sent for them", &upload}
+#endif
+  };
   return kBenches;
 }
 

@@ -33,9 +33,17 @@ struct DemTerrain {
   int band = 1;        ///< >= 1
 };
 
+/// A triangle mesh in memory, as other programs have it. Only the C++ interface can set it.
+struct MeshTerrain {
+  std::vector<Vec3d> vertices = {};  ///< m, in the terrain's coordinates; vertices without a triangle are no ground
+  /// [3 * triangle] indices of vertices, counter-clockwise from above. Neighbours share vertices: equal positions are
+  /// not joined. One height at each place: no vertical faces, no overhangs, no second layer.
+  std::vector<std::uint32_t> triangles = {};
+};
+
 /// Where the ground comes from and what it is made of.
 struct TerrainSource {
-  std::variant<GridTerrain, DemTerrain> shape = GridTerrain{};
+  std::variant<GridTerrain, DemTerrain, MeshTerrain> shape = GridTerrain{};
   std::string material = "paper";           ///< a name in Scene::materials or of a preset
   std::uint64_t max_vertices = 20'000'000;  ///< a larger terrain is refused before memory is taken
 };
@@ -69,7 +77,7 @@ struct Bomb {
 /// What a run writes.
 struct OutputSettings {
   double every = 0;                       ///< s between frames of `formats`; 0: only the final state
-  std::vector<std::string> formats = {};  ///< of `ply`, `tif`, `csv`
+  std::vector<std::string> formats = {};  ///< of `ply`, `tif`, `csv`; terrain from a mesh has no `tif`
 };
 
 /// Everything that makes a run: what a scene file holds.

@@ -70,6 +70,7 @@ void describe_terrain(Visitor& v, TerrainSource& terrain) {
   for (const std::size_t shape : v.branches(kShapes, terrain.shape.index())) {
     if (shape == 0) describe_grid(v, as<GridTerrain>(terrain.shape));
     if (shape == 1) describe_dem(v, as<DemTerrain>(terrain.shape));
+    // A mesh has no keys: it comes from code, and is checked when the terrain is made of it.
   }
   v.text({.name = "material", .meaning = "what the ground is made of: a preset or a material of the file"},
          terrain.material);

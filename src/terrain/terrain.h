@@ -11,7 +11,7 @@
 // Sums       none
 namespace divot::terrain {
 
-/// The ground a scene starts with. Fails on a grid or file that is not usable, naming file and key, and before memory
+/// The ground a scene starts with. Fails on a grid, mesh or file that is not usable, naming file and key, and before memory
 /// is taken on one that is larger than TerrainSource::max_vertices. [O(vertices)]
 Result<state::Surface> load_terrain(const Scene& scene);
 
