@@ -13,6 +13,7 @@ namespace divot::viewer {
 namespace {
 
 static_assert(kMaxOccluders == 16, "the length of `occluders` in glsl_light.h and glsl_fast_ground.h");
+static_assert(kMaxBallShadows == 6, "the length of `ball_shadows` there");
 static_assert(kScaleStops == 5, "the length of `ramp` in glsl_ground.h");
 
 const std::string kVersion = "#version 130\n";
@@ -40,7 +41,7 @@ osg::ref_ptr<osg::Program> ground_program(Quality quality, bool numbers) {
   const std::string head = kVersion + (numbers ? "#define NUMBERS\n" : "");
   const std::string vertex = head + glsl::kShownNumber;
   if (quality == Quality::fast) {
-    return make_program(vertex + glsl::kFastGroundVertex,
+    return make_program(vertex + glsl::kOpenness + glsl::kFastGroundVertex,
                         head + glsl::kFastDevelop + glsl::kRamp + glsl::kFastGroundFragment);
   }
   return make_program(vertex + glsl::kGroundVertex,
@@ -58,8 +59,9 @@ osg::ref_ptr<osg::Program> ball_program(Quality quality) {
 }
 
 osg::ref_ptr<osg::Program> depth_program() { return make_program(glsl::kDepthVertex, glsl::kDepthFragment); }
-osg::ref_ptr<osg::Program> background_program() {
-  return make_program(glsl::kBackgroundVertex, glsl::kBackgroundFragment);
+osg::ref_ptr<osg::Program> background_program(Quality quality) {
+  const std::string head = kVersion + (quality == Quality::fine ? "#define DITHER\n" : "");
+  return make_program(glsl::kBackgroundVertex, head + glsl::kBackgroundFragment);
 }
 osg::ref_ptr<osg::Program> ink_program() {
   return make_program(kVersion + glsl::kShownNumber + glsl::kRamp + glsl::kInkVertex, glsl::kInkFragment);

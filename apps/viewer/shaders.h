@@ -9,6 +9,10 @@ namespace divot::viewer {
 /// Most bodies that darken the ground beneath them; the largest are taken.
 inline constexpr int kMaxOccluders = 16;
 
+/// Most bodies that throw shadows by formula, where the quality is fast; the largest are taken. Programs have a define
+/// BALLS with their number.
+inline constexpr int kMaxBallShadows = 6;
+
 // The programs of the picture, GLSL 1.30 with OpenGL's compatibility built-ins. Positions in them are the surface's, in
 // metres relative to its origin. What their uniforms mean stands with the uniforms in lighting.h and scene_graph.cpp.
 
