@@ -62,7 +62,7 @@ LitView::LitView(const Subjects& subjects, const Sun& sun, Quality quality)
   lit->addChild(balls(subjects.bodies, ball, kBodyColor, kPatternColor));
   lit->addChild(balls(subjects.bombs, ball, kBombColor, kBombColor));
   root_->addChild(lit);
-  root_->addChild(make_background(kSkyTop, kSkyBottom));
+  root_->addChild(make_background(kSkyTop, kSkyBottom, quality));
 }
 
 void LitView::show_numbers(bool shown) {

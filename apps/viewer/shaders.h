@@ -18,10 +18,10 @@ inline constexpr int kMaxBallShadows = 6;
 
 /// Terrain coloured by slope, height and disturbance; or by the number that `color_by` asks for.
 osg::ref_ptr<osg::Program> ground_program(Quality quality, bool numbers);
-osg::ref_ptr<osg::Program> wall_program(Quality quality);  ///< the cut through the soil where the terrain ends
-osg::ref_ptr<osg::Program> ball_program(Quality quality);  ///< spheres: bodies with a pattern that shows rolling
-osg::ref_ptr<osg::Program> depth_program();                ///< what the sun sees
-osg::ref_ptr<osg::Program> background_program();           ///< gradient behind everything
+osg::ref_ptr<osg::Program> wall_program(Quality quality);        ///< the cut through the soil where the terrain ends
+osg::ref_ptr<osg::Program> ball_program(Quality quality);        ///< spheres: bodies with a pattern that shows rolling
+osg::ref_ptr<osg::Program> depth_program();                      ///< what the sun sees
+osg::ref_ptr<osg::Program> background_program(Quality quality);  ///< gradient behind everything
 osg::ref_ptr<osg::Program> ink_program();    ///< one colour without light: lines and fillings of the wireframe
 osg::ref_ptr<osg::Program> point_program();  ///< points and lines without light
 osg::ref_ptr<osg::Program> puff_program();   ///< dust and flashes
