@@ -4,6 +4,44 @@
 // texture. A pixel costs about a tenth of the fine one.
 namespace divot::viewer::glsl {
 
+// What a pixel or, where DENSE is defined, a vertex does. Without branches: software renderers take both sides of them.
+inline constexpr char kFastGroundColor[] = R"(
+#pragma import_defines(BALLS)
+uniform vec3 haze_color;
+uniform sampler2DShadow shadow_map;
+uniform sampler2D grain;
+uniform vec4 ball_shadows[6];  // place in the shadow map, and 1 / radius there
+
+// `ground`: how turned, how dry by height, how steep, how sunk.
+vec3 ground_color(vec3 sun_light, vec3 sky_light, vec3 shadow_place, vec3 grain_place_haze, vec4 ground, float shown) {
+  float lit = textureLod(shadow_map, shadow_place, 0.0);
+#ifdef BALLS
+  for (int i = 0; i < BALLS; ++i) {
+    vec2 d = (ball_shadows[i].xy - shadow_place.xy) * ball_shadows[i].w;
+    lit *= clamp(max(dot(d, d) * 6.0 - 5.5, step(shadow_place.z, ball_shadows[i].z)), 0.0, 1.0);
+  }
+#endif
+#ifdef NUMBERS
+  vec3 albedo = ramp_color(shown);
+#else
+#ifdef DENSE
+  vec2 noise = textureLod(grain, grain_place_haze.xy, 0.0).xw - 0.5;  // broad, fine
+#else
+  vec2 noise = texture(grain, grain_place_haze.xy).xw - 0.5;
+#endif
+  float turned = clamp(ground.x * (16.0 + 19.0 * noise.y + 13.0 * noise.x) - 0.33, 0.0, 1.0);
+  float dry = clamp((noise.x + 0.5 * noise.y + ground.y) * 1.9 + 0.46, 0.0, 1.0);
+  float steep = clamp((ground.z + 0.08 * noise.y) * 9.0 - 0.72, 0.0, 1.0);
+  vec3 albedo = mix(vec3(0.110, 0.140, 0.045), vec3(0.285, 0.230, 0.115), dry) * (1.0 + 0.7 * noise.y);
+  albedo = mix(albedo, vec3(0.245, 0.207, 0.162) + vec3(0.110, 0.105, 0.095) * noise.y, steep);
+  albedo = mix(albedo, (vec3(0.160, 0.095, 0.058) + vec3(0.120, 0.077, 0.048) * noise.y) * ground.w, turned);
+  // Uneven ground catches the low sun unevenly.
+  lit *= 1.0 + (0.5 + 0.5 * turned) * noise.y;
+#endif
+  return develop(mix(haze_color, albedo * (sun_light * lit + sky_light), grain_place_haze.z));
+}
+)";
+
 inline constexpr char kFastGroundVertex[] = R"(
 uniform vec3 sun_direction, sun_color, sky_color, bounce_color;
 uniform mat4 osg_ViewMatrixInverse, shadow_matrix;
@@ -11,12 +49,18 @@ uniform vec2 haze_range, height_range;
 uniform float shadow_texel, sinkage_scale, detail_wave;
 in vec2 sinkage;
 in vec4 mark;
-out vec3 sun_light, sky_light, shadow_place;
-out vec4 ground;  // how turned, how dry by height, how steep, how sunk
-out vec3 grain_place_haze;
+#ifdef DENSE
+out vec3 color;
+vec3 sun_light, sky_light, shadow_place, grain_place_haze;
+vec4 ground;
+#else
+out vec3 sun_light, sky_light, shadow_place, grain_place_haze;
+out vec4 ground;
 #ifdef NUMBERS
 out float shown;
 #endif
+#endif
+
 void main() {
   vec3 n = normalize(gl_Normal), world = gl_Vertex.xyz;
   float toward = dot(n, sun_direction);
@@ -29,48 +73,36 @@ void main() {
   grain_place_haze = vec3(world.xy * (0.25 / detail_wave),
                           exp(-max(distance(osg_ViewMatrixInverse[3].xyz, world) - haze_range.x, 0.0) / haze_range.y));
 #ifdef NUMBERS
+#ifdef DENSE
+  float shown;
+#endif
   shown = shown_number(world, n, sinkage.x, mark);
+#else
+  const float shown = 0.0;
+#endif
+#ifdef DENSE
+  color = ground_color(sun_light, sky_light, shadow_place, grain_place_haze, ground, shown);
 #endif
   gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
 }
 )";
 
-// Without branches: software renderers take both sides of them.
 inline constexpr char kFastGroundFragment[] = R"(
-#pragma import_defines(BALLS)
-uniform vec3 haze_color;
-uniform sampler2DShadow shadow_map;
-uniform sampler2D grain;
-uniform vec4 ball_shadows[6];  // place in the shadow map, and 1 / radius there
+#ifdef DENSE
+in vec3 color;
+void main() { gl_FragColor = vec4(color, 1.0); }
+#else
 in vec3 sun_light, sky_light, shadow_place, grain_place_haze;
 in vec4 ground;
 #ifdef NUMBERS
 in float shown;
-#endif
-
-void main() {
-  float lit = textureLod(shadow_map, shadow_place, 0.0);
-#ifdef BALLS
-  for (int i = 0; i < BALLS; ++i) {
-    vec2 d = (ball_shadows[i].xy - shadow_place.xy) * ball_shadows[i].w;
-    lit *= clamp(max(dot(d, d) * 6.0 - 5.5, step(shadow_place.z, ball_shadows[i].z)), 0.0, 1.0);
-  }
-#endif
-#ifdef NUMBERS
-  vec3 albedo = ramp_color(shown);
 #else
-  vec2 noise = texture(grain, grain_place_haze.xy).xw - 0.5;  // broad, fine
-  float turned = clamp(ground.x * (16.0 + 19.0 * noise.y + 13.0 * noise.x) - 0.33, 0.0, 1.0);
-  float dry = clamp((noise.x + 0.5 * noise.y + ground.y) * 1.9 + 0.46, 0.0, 1.0);
-  float steep = clamp((ground.z + 0.08 * noise.y) * 9.0 - 0.72, 0.0, 1.0);
-  vec3 albedo = mix(vec3(0.110, 0.140, 0.045), vec3(0.285, 0.230, 0.115), dry) * (1.0 + 0.7 * noise.y);
-  albedo = mix(albedo, vec3(0.245, 0.207, 0.162) + vec3(0.110, 0.105, 0.095) * noise.y, steep);
-  albedo = mix(albedo, (vec3(0.160, 0.095, 0.058) + vec3(0.120, 0.077, 0.048) * noise.y) * ground.w, turned);
-  // Uneven ground catches the low sun unevenly.
-  lit *= 1.0 + (0.5 + 0.5 * turned) * noise.y;
+const float shown = 0.0;
 #endif
-  gl_FragColor = vec4(develop(mix(haze_color, albedo * (sun_light * lit + sky_light), grain_place_haze.z)), 1.0);
+void main() {
+  gl_FragColor = vec4(ground_color(sun_light, sky_light, shadow_place, grain_place_haze, ground, shown), 1.0);
 }
+#endif
 )";
 
 inline constexpr char kFastWallFragment[] = R"(

@@ -36,16 +36,19 @@ std::string light(Quality quality) {
 
 }  // namespace
 
-osg::ref_ptr<osg::Program> ground_program(Quality quality, bool numbers) {
-  // Two programs and not one with a branch: software renderers take both sides of branches.
-  const std::string head = kVersion + (numbers ? "#define NUMBERS\n" : "");
+osg::ref_ptr<osg::Program> ground_program(const GroundStyle& style) {
+  // Many programs and not one with branches: software renderers take both sides of branches.
+  std::string head = kVersion;
+  if (style.numbers) head += "#define NUMBERS\n";
+  if (style.dense && style.quality == Quality::fast) head += "#define DENSE\n";
   const std::string vertex = head + glsl::kShownNumber;
-  if (quality == Quality::fast) {
-    return make_program(vertex + glsl::kOpenness + glsl::kFastGroundVertex,
-                        head + glsl::kFastDevelop + glsl::kRamp + glsl::kFastGroundFragment);
+  if (style.quality == Quality::fast) {
+    const std::string color = std::string(glsl::kFastDevelop) + glsl::kRamp + glsl::kFastGroundColor;
+    return make_program(vertex + color + glsl::kOpenness + glsl::kFastGroundVertex,
+                        head + color + glsl::kFastGroundFragment);
   }
   return make_program(vertex + glsl::kGroundVertex,
-                      head + light(quality) + glsl::kNoise + glsl::kRamp + glsl::kGroundFragment);
+                      head + light(style.quality) + glsl::kNoise + glsl::kRamp + glsl::kGroundFragment);
 }
 
 osg::ref_ptr<osg::Program> wall_program(Quality quality) {

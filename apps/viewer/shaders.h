@@ -16,8 +16,16 @@ inline constexpr int kMaxBallShadows = 6;
 // The programs of the picture, GLSL 1.30 with OpenGL's compatibility built-ins. Positions in them are the surface's, in
 // metres relative to its origin. What their uniforms mean stands with the uniforms in lighting.h and scene_graph.cpp.
 
-/// Terrain coloured by slope, height and disturbance; or by the number that `color_by` asks for.
-osg::ref_ptr<osg::Program> ground_program(Quality quality, bool numbers);
+/// Which of its programs colours the ground.
+struct GroundStyle {
+  Quality quality = Quality::fine;
+  bool numbers = false;  ///< by the number that `color_by` asks for, instead of naturally
+  bool dense = false;    ///< triangles are about as small as pixels: fast quality then works at vertices only
+  friend bool operator==(const GroundStyle&, const GroundStyle&) = default;
+};
+
+/// Terrain coloured by slope, height and disturbance, or by a number.
+osg::ref_ptr<osg::Program> ground_program(const GroundStyle& style);
 osg::ref_ptr<osg::Program> wall_program(Quality quality);        ///< the cut through the soil where the terrain ends
 osg::ref_ptr<osg::Program> ball_program(Quality quality);        ///< spheres: bodies with a pattern that shows rolling
 osg::ref_ptr<osg::Program> depth_program();                      ///< what the sun sees
