@@ -14,7 +14,7 @@ namespace {
 constexpr double kGravity = 9.81;  // m/s^2: dust takes as long as soil would need to fall
 constexpr double kReach = 3.565;   // m, half the width of the crater of 1 t (eq. 10)
 constexpr double kLife = 5.0;      // of the dust, in fall times
-constexpr std::uint32_t kDust = 44, kClods = 36;
+constexpr std::uint32_t kDust = 56, kClods = 36;
 const osg::Vec3 kFire(1.0f, 0.62f, 0.22f), kSmoke(0.40f, 0.34f, 0.28f), kPale(0.66f, 0.60f, 0.52f);
 const osg::Vec3 kClod(0.16f, 0.11f, 0.08f), kGlare(1.0f, 0.93f, 0.75f);
 
@@ -96,10 +96,10 @@ void ExplosionNode::add_dust(const osg::Vec3& at, float reach, float age, std::u
   for (std::uint32_t i = 0; i < kDust; ++i) {
     const bool stem = i % 5 < 3;
     const float size = mix(0.7f, 1.3f, chance(seed, i, 0)), high = chance(seed, i, 1), out = chance(seed, i, 2);
-    const float up = stem ? mix(0.25f, 1.7f, high) : mix(0.05f, 0.25f, high);
-    const float away = stem ? mix(0.05f, 0.25f, out) + 0.35f * high * high * out : mix(0.7f, 1.5f, out);
+    const float up = stem ? mix(0.2f, 1.9f, high) : mix(0.08f, 0.3f, high);
+    const float away = stem ? mix(0.05f, 0.3f, out) + 0.5f * high * high * out : mix(0.7f, 1.5f, out);
     const osg::Vec3 place = around(chance(seed, i, 3)) * (away * spread) + osg::Vec3(0, 0, up * spread + 0.04f * age);
-    const float opacity = (stem ? 0.75f : 0.55f) * std::min(age / 0.05f, 1.0f) * left * left * left;
+    const float opacity = (stem ? 0.9f : 0.8f) * std::min(age / 0.05f, 1.0f) * left * left;
     const osg::Vec3 dust = mix(kSmoke, kPale, mix(0.7f * high, 1.0f, std::min(0.25f * age, 0.6f)));
     const osg::Vec3 color = mix(kFire, dust, std::clamp(age / (stem ? 0.35f : 0.12f), 0.0f, 1.0f));
     const float radius = size * (stem ? 0.20f + 0.32f * spread : 0.14f + 0.26f * spread) + 0.03f * age;

@@ -4,63 +4,31 @@
 // texture. A pixel costs about a tenth of the fine one.
 namespace divot::viewer::glsl {
 
-inline constexpr char kFastGroundVertex[] = R"(
-uniform vec3 sun_direction, sun_color, sky_color, bounce_color;
-uniform mat4 osg_ViewMatrixInverse, shadow_matrix;
-uniform vec2 haze_range, height_range;
-uniform float shadow_texel, sinkage_scale, detail_wave;
-in vec2 sinkage;
-in vec4 mark;
-out vec3 world, sun_light, sky_light, shadow_place;
-out vec4 ground;  // how turned, how dry by height, how steep, how sunk
-out vec3 grain_place_haze;
-#ifdef NUMBERS
-out float shown;
-#endif
-void main() {
-  vec3 n = normalize(gl_Normal);
-  world = gl_Vertex.xyz;
-  float toward = dot(n, sun_direction);
-  sun_light = sun_color * max(toward, 0.0) * smoothstep(-0.02, 0.12, toward);
-  sky_light = mix(bounce_color, sky_color, 0.5 + 0.5 * n.z);
-  shadow_place = (shadow_matrix * vec4(world + n * (2.0 * shadow_texel), 1.0)).xyz;
-  float height = clamp((world.z + sinkage.x - height_range.x) * height_range.y, 0.0, 1.0);
-  ground = vec4(sinkage.y / sinkage_scale, 0.55 * (height - 0.5) * step(1e-9, height_range.y), 1.0 - n.z,
-                1.0 - 0.2 * smoothstep(0.1, 1.2, sinkage.x / sinkage_scale));
-  grain_place_haze = vec3(world.xy * (0.25 / detail_wave),
-                          exp(-max(distance(osg_ViewMatrixInverse[3].xyz, world) - haze_range.x, 0.0) / haze_range.y));
-#ifdef NUMBERS
-  shown = shown_number(world, n, sinkage.x, mark);
-#endif
-  gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
-}
-)";
-
-// Without branches: software renderers take both sides of them.
-inline constexpr char kFastGroundFragment[] = R"(
-uniform vec3 sun_direction, haze_color;
+// What a pixel or, where DENSE is defined, a vertex does. Without branches: software renderers take both sides of them.
+inline constexpr char kFastGroundColor[] = R"(
+#pragma import_defines(BALLS)
+uniform vec3 haze_color;
 uniform sampler2DShadow shadow_map;
 uniform sampler2D grain;
-uniform int occluder_count;
-uniform vec4 occluders[16];
-in vec3 world, sun_light, sky_light, shadow_place, grain_place_haze;
-in vec4 ground;
-#ifdef NUMBERS
-in float shown;
-#endif
+uniform vec4 ball_shadows[6];  // place in the shadow map, and 1 / radius there
 
-void main() {
-  float lit = textureLod(shadow_map, shadow_place, 0.0), open = 1.0;
-  for (int i = 0; i < occluder_count; ++i) {
-    vec3 d = occluders[i].xyz - world;
-    float along = max(dot(d, sun_direction), 0.0), l2 = dot(d, d), r2 = occluders[i].w * occluders[i].w;
-    lit *= clamp((l2 - along * along) / r2 * 6.0 - 5.5, 0.0, 1.0);
-    open *= 1.0 - max(d.z, 0.0) * inversesqrt(l2) * min(r2 / l2, 1.0);
+// `ground`: how turned, how dry by height, how steep, how sunk.
+vec3 ground_color(vec3 sun_light, vec3 sky_light, vec3 shadow_place, vec3 grain_place_haze, vec4 ground, float shown) {
+  float lit = textureLod(shadow_map, shadow_place, 0.0);
+#ifdef BALLS
+  for (int i = 0; i < BALLS; ++i) {
+    vec2 d = (ball_shadows[i].xy - shadow_place.xy) * ball_shadows[i].w;
+    lit *= clamp(max(dot(d, d) * 6.0 - 5.5, step(shadow_place.z, ball_shadows[i].z)), 0.0, 1.0);
   }
+#endif
 #ifdef NUMBERS
   vec3 albedo = ramp_color(shown);
 #else
-  vec2 noise = texture(grain, grain_place_haze.xy).xw - 0.5;  // broad, fine
+#ifdef DENSE
+  vec2 noise = textureLod(grain, grain_place_haze.xy, 0.0).xw - 0.5;  // broad, fine
+#else
+  vec2 noise = texture(grain, grain_place_haze.xy).xw - 0.5;
+#endif
   float turned = clamp(ground.x * (16.0 + 19.0 * noise.y + 13.0 * noise.x) - 0.33, 0.0, 1.0);
   float dry = clamp((noise.x + 0.5 * noise.y + ground.y) * 1.9 + 0.46, 0.0, 1.0);
   float steep = clamp((ground.z + 0.08 * noise.y) * 9.0 - 0.72, 0.0, 1.0);
@@ -70,8 +38,71 @@ void main() {
   // Uneven ground catches the low sun unevenly.
   lit *= 1.0 + (0.5 + 0.5 * turned) * noise.y;
 #endif
-  gl_FragColor = vec4(develop(mix(haze_color, albedo * (sun_light * lit + sky_light * open), grain_place_haze.z)), 1.0);
+  return develop(mix(haze_color, albedo * (sun_light * lit + sky_light), grain_place_haze.z));
 }
+)";
+
+inline constexpr char kFastGroundVertex[] = R"(
+uniform vec3 sun_direction, sun_color, sky_color, bounce_color;
+uniform mat4 osg_ViewMatrixInverse, shadow_matrix;
+uniform vec2 haze_range, height_range;
+uniform float shadow_texel, sinkage_scale, detail_wave;
+in vec2 sinkage;
+in vec4 mark;
+#ifdef DENSE
+out vec3 color;
+vec3 sun_light, sky_light, shadow_place, grain_place_haze;
+vec4 ground;
+#else
+out vec3 sun_light, sky_light, shadow_place, grain_place_haze;
+out vec4 ground;
+#ifdef NUMBERS
+out float shown;
+#endif
+#endif
+
+void main() {
+  vec3 n = normalize(gl_Normal), world = gl_Vertex.xyz;
+  float toward = dot(n, sun_direction);
+  sun_light = sun_color * max(toward, 0.0) * smoothstep(-0.02, 0.12, toward);
+  sky_light = mix(bounce_color, sky_color, 0.5 + 0.5 * n.z) * openness(world, n);
+  shadow_place = (shadow_matrix * vec4(world + n * (2.0 * shadow_texel), 1.0)).xyz;
+  float height = clamp((world.z + sinkage.x - height_range.x) * height_range.y, 0.0, 1.0);
+  ground = vec4(sinkage.y / sinkage_scale, 0.55 * (height - 0.5) * step(1e-9, height_range.y), 1.0 - n.z,
+                1.0 - 0.2 * smoothstep(0.1, 1.2, sinkage.x / sinkage_scale));
+  grain_place_haze = vec3(world.xy * (0.25 / detail_wave),
+                          exp(-max(distance(osg_ViewMatrixInverse[3].xyz, world) - haze_range.x, 0.0) / haze_range.y));
+#ifdef NUMBERS
+#ifdef DENSE
+  float shown;
+#endif
+  shown = shown_number(world, n, sinkage.x, mark);
+#else
+  const float shown = 0.0;
+#endif
+#ifdef DENSE
+  color = ground_color(sun_light, sky_light, shadow_place, grain_place_haze, ground, shown);
+#endif
+  gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
+}
+)";
+
+inline constexpr char kFastGroundFragment[] = R"(
+#ifdef DENSE
+in vec3 color;
+void main() { gl_FragColor = vec4(color, 1.0); }
+#else
+in vec3 sun_light, sky_light, shadow_place, grain_place_haze;
+in vec4 ground;
+#ifdef NUMBERS
+in float shown;
+#else
+const float shown = 0.0;
+#endif
+void main() {
+  gl_FragColor = vec4(ground_color(sun_light, sky_light, shadow_place, grain_place_haze, ground, shown), 1.0);
+}
+#endif
 )";
 
 inline constexpr char kFastWallFragment[] = R"(

@@ -11,8 +11,6 @@ uniform vec2 haze_range;
 uniform sampler2DShadow shadow_map;
 uniform mat4 shadow_matrix;
 uniform float shadow_texel;
-uniform int occluder_count;
-uniform vec4 occluders[16];
 in vec3 world, facing;
 
 )";
@@ -43,20 +41,26 @@ float sunlight(vec3 p, vec3 n) {
 
 // One tap for the ground's shadow; balls throw theirs by formula, so that they stay round and need no map.
 inline constexpr char kFastSunlight[] = R"(
+#pragma import_defines(BALLS)
+uniform vec4 ball_shadows[6];  // place in the shadow map, and 1 / radius there
 float sunlight(vec3 p, vec3 n) {
   vec3 s = (shadow_matrix * vec4(p + n * (2.0 * shadow_texel), 1.0)).xyz;
   float lit = textureLod(shadow_map, s, 0.0);
-  for (int i = 0; i < occluder_count; ++i) {
-    vec3 d = occluders[i].xyz - p;
-    float along = dot(d, sun_direction), r2 = occluders[i].w * occluders[i].w;
-    // A ball does not shade itself here: that is what its normals do.
-    if (along > 1.05 * occluders[i].w) lit *= smoothstep(0.9 * r2, 1.1 * r2, dot(d, d) - along * along);
+#ifdef BALLS
+  for (int i = 0; i < BALLS; ++i) {
+    vec2 d = (ball_shadows[i].xy - s.xy) * ball_shadows[i].w;
+    // A ball does not shade itself: the half turned to the sun lies before its middle, and normals darken the other.
+    lit *= clamp(max(dot(d, d) * 6.0 - 5.5, step(s.z, ball_shadows[i].z)), 0.0, 1.0);
   }
+#endif
   return lit;
 }
 )";
 
-inline constexpr char kOpenness[] = R"(// Share of the sky that spheres nearby leave open above p.
+inline constexpr char kOpenness[] = R"(
+uniform int occluder_count;
+uniform vec4 occluders[16];
+// Share of the sky that spheres nearby leave open above p.
 float openness(vec3 p, vec3 n) {
   float open = 1.0;
   for (int i = 0; i < occluder_count; ++i) {

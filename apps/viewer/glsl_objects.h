@@ -55,12 +55,16 @@ void main() {
 }
 )";
 
-inline constexpr char kBackgroundFragment[] = R"(#version 130
+inline constexpr char kBackgroundFragment[] = R"(
 in vec3 color;
 void main() {
+#ifdef DITHER
   // Half a step of noise hides the bands of 8-bit colour.
   float dither = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
   gl_FragColor = vec4(color + dither / 255.0, 1.0);
+#else
+  gl_FragColor = vec4(color, 1.0);
+#endif
 }
 )";
 

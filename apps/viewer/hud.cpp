@@ -11,8 +11,8 @@ namespace divot::viewer {
 namespace {
 
 constexpr float kSize = 13, kLine = 18, kMargin = 10, kPad = 8;  // pixels
-constexpr float kStatusWidth = 236, kHelpWidth = 470, kHelpText = 96, kLegendWidth = 190;
-constexpr float kNameWidth = 92, kBarWidth = 74;
+constexpr float kStatusWidth = 250, kHelpWidth = 520, kHelpText = 96, kLegendWidth = 190;
+constexpr float kNameWidth = 92, kBarWidth = 72;
 constexpr double kFullBar = 1000.0 / 60;  // ms
 constexpr double kRenewal = 0.2;          // s
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <osg/PolygonOffset>
+#include <string>
 #include <vector>
 
 #include "viewer/shaders.h"
@@ -73,22 +74,24 @@ struct Gate : osg::NodeCallback {
 
 Lighting::Lighting(const Sun& sun, Quality quality)
     : sun_direction_(direction_to(sun)),
+      quality_(quality),
       shadow_size_(quality == Quality::fast ? kFastShadow : kFineShadow),
       shadow_root_(new osg::Group),
       shadow_map_(make_shadow_map(shadow_size_)),
-      uniforms_(new osg::StateSet),
       shadow_matrix_(new osg::Uniform(osg::Uniform::FLOAT_MAT4, "shadow_matrix")),
       shadow_texel_(new osg::Uniform("shadow_texel", 1.0f)),
       haze_range_(new osg::Uniform("haze_range", osg::Vec2(1, 1))),
       occluders_(new osg::Uniform(osg::Uniform::FLOAT_VEC4, "occluders", kMaxOccluders)),
-      occluder_count_(new osg::Uniform("occluder_count", 0)) {
+      occluder_count_(new osg::Uniform("occluder_count", 0)),
+      ball_shadows_(new osg::Uniform(osg::Uniform::FLOAT_VEC4, "ball_shadows", kMaxBallShadows)) {
   shadow_pass_ = make_shadow_pass(*shadow_map_, shadow_size_);
   shadow_root_->addChild(shadow_pass_);
   shadow_root_->setCullCallback(new Gate);
   set_focus({}, 1);
 }
 
-void Lighting::apply(osg::StateSet& state) const {
+void Lighting::apply(osg::StateSet& state) {
+  lit_.push_back(&state);
   state.setTextureAttributeAndModes(kShadowUnit, shadow_map_);
   state.addUniform(new osg::Uniform("shadow_map", static_cast<int>(kShadowUnit)));
   state.addUniform(new osg::Uniform("sun_direction", osg::Vec3(sun_direction_)));
@@ -96,7 +99,7 @@ void Lighting::apply(osg::StateSet& state) const {
   state.addUniform(new osg::Uniform("sky_color", kSkyColor));
   state.addUniform(new osg::Uniform("bounce_color", kBounceColor));
   state.addUniform(new osg::Uniform("haze_color", kHazeColor));
-  for (const auto& uniform : {shadow_matrix_, shadow_texel_, haze_range_, occluders_, occluder_count_}) {
+  for (const auto& uniform : {shadow_matrix_, shadow_texel_, haze_range_, occluders_, occluder_count_, ball_shadows_}) {
     state.addUniform(uniform);
   }
 }
@@ -108,8 +111,9 @@ void Lighting::set_focus(const osg::Vec3d& center, double radius) {
   const osg::Matrixd projection = osg::Matrixd::ortho(-radius, radius, -radius, radius, radius, 7 * radius);
   shadow_pass_->setViewMatrix(view);
   shadow_pass_->setProjectionMatrix(projection);
-  shadow_matrix_->set(
-      osg::Matrixf(view * projection * osg::Matrixd::translate(1, 1, 1) * osg::Matrixd::scale(0.5, 0.5, 0.5)));
+  shadow_space_ = view * projection * osg::Matrixd::translate(1, 1, 1) * osg::Matrixd::scale(0.5, 0.5, 0.5);
+  shadow_radius_ = radius;
+  shadow_matrix_->set(osg::Matrixf(shadow_space_));
   shadow_texel_->set(static_cast<float>(2 * radius / shadow_size_));
   renew_shadows();
 }
@@ -123,13 +127,28 @@ void Lighting::set_occluders(const Vec3d& origin, std::span<const BodyView> bodi
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return bodies[a].radius > bodies[b].radius; });
-  order.resize(std::min(order.size(), shadow_size_ == kFastShadow ? kFastOccluders : kMaxOccluders));
+  order.resize(std::min<std::size_t>(order.size(), kMaxOccluders));
+  set_ball_count(quality_ == Quality::fast ? std::min<std::size_t>(order.size(), kMaxBallShadows) : 0);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const BodyView& body = bodies[order[i]];
     const Vec3d p = body.position - origin;
-    occluders_->setElement(static_cast<unsigned>(i), osg::Vec4(osg::Vec4d(p.x, p.y, p.z, body.radius)));
+    const auto index = static_cast<unsigned>(i);
+    occluders_->setElement(index, osg::Vec4(osg::Vec4d(p.x, p.y, p.z, body.radius)));
+    if (i >= ball_count_) continue;
+    const osg::Vec3d place = osg::Vec3d(p.x, p.y, p.z) * shadow_space_;
+    ball_shadows_->setElement(index, osg::Vec4(osg::Vec4d(place, 2 * shadow_radius_ / body.radius)));
   }
   occluder_count_->set(static_cast<int>(order.size()));
+}
+
+// A loop of known length is several times cheaper, so each number has a program of its own.
+void Lighting::set_ball_count(std::size_t count) {
+  if (count == ball_count_) return;
+  ball_count_ = count;
+  for (const auto& state : lit_) {
+    state->removeDefine("BALLS");
+    if (count > 0) state->setDefine("BALLS", std::to_string(count));
+  }
 }
 
 }  // namespace divot::viewer

@@ -4,6 +4,7 @@
 #include <osg/Texture2D>
 #include <osg/Uniform>
 #include <span>
+#include <vector>
 
 #include "divot/views.h"
 #include "viewer/camera.h"
@@ -23,7 +24,7 @@ class Lighting {
   Lighting(const Sun& sun, Quality quality);
 
   /// Adds the light to what is drawn under `state`.
-  void apply(osg::StateSet& state) const;
+  void apply(osg::StateSet& state);
 
   /// What throws shadows: children of this are drawn as the sun sees them.
   osg::Group& casters() { return *shadow_pass_; }
@@ -41,18 +42,24 @@ class Lighting {
   /// Haze begins at `distance` from the eye, m, > 0.
   void set_haze(double distance);
 
-  /// Bodies darken the ground beneath them, and throw round shadows where the quality is fast. `origin`: the surface's.
-  /// [O(bodies log bodies)]
+  /// Call after set_focus(). Bodies darken the ground beneath them, and throw round shadows where the quality is fast.
+  /// `origin`: the surface's. [O(bodies log bodies)]
   void set_occluders(const Vec3d& origin, std::span<const BodyView> bodies);
 
  private:
+  void set_ball_count(std::size_t count);
+
   osg::Vec3d sun_direction_;  // unit, towards the sun
-  int shadow_size_;           // texels along a side
+  Quality quality_;
+  std::size_t ball_count_ = 0;  // that throw shadows by formula
+  osg::Matrixd shadow_space_;   // to the shadow map, 0 to 1
+  double shadow_radius_ = 1;    // m
+  int shadow_size_;             // texels along a side
   osg::ref_ptr<osg::Group> shadow_root_;
   osg::ref_ptr<osg::Camera> shadow_pass_;
   osg::ref_ptr<osg::Texture2D> shadow_map_;
-  osg::ref_ptr<osg::StateSet> uniforms_;
-  osg::ref_ptr<osg::Uniform> shadow_matrix_, shadow_texel_, haze_range_, occluders_, occluder_count_;
+  std::vector<osg::ref_ptr<osg::StateSet>> lit_;  // what apply() was called with
+  osg::ref_ptr<osg::Uniform> shadow_matrix_, shadow_texel_, haze_range_, occluders_, occluder_count_, ball_shadows_;
 };
 
 }  // namespace divot::viewer

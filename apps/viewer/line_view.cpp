@@ -42,7 +42,7 @@ void draw_edges(osg::Group& group) {
 // Everything is first filled with paper, pushed back a little, and then drawn as edges.
 osg::ref_ptr<osg::Group> make_line_view(const Subjects& subjects, osg::Uniform& cell) {
   osg::ref_ptr<osg::Group> root = new osg::Group;
-  root->addChild(make_background(kPaper, kPaper));
+  root->addChild(make_background(kPaper, kPaper, Quality::fast));
   root->getOrCreateStateSet()->addUniform(new osg::Uniform("paper", kPaper));
   osg::ref_ptr<osg::Program> ink = ink_program();
   osg::ref_ptr<osg::Group> filling = inked({&subjects.ground, &subjects.walls, &subjects.bodies}, ink, kPaper, kPaper);

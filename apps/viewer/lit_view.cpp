@@ -3,7 +3,6 @@
 #include <osg/CullFace>
 
 #include "viewer/grain.h"
-#include "viewer/shaders.h"
 #include "viewer/sky.h"
 
 namespace divot::viewer {
@@ -34,9 +33,8 @@ osg::ref_ptr<osg::Group> balls(osg::Node& child, osg::Program* program, const os
 }  // namespace
 
 LitView::LitView(const Subjects& subjects, const Sun& sun, Quality quality)
-    : natural_(ground_program(quality, false)),
-      numbers_(ground_program(quality, true)),
-      ground_(group_of(subjects.ground, natural_)),
+    : style_{.quality = quality},
+      ground_(group_of(subjects.ground, ground_program(style_))),
       root_(new osg::Group),
       lighting_(sun, quality) {
   for (osg::Group* caster : {&subjects.ground, &subjects.walls, &subjects.bombs}) lighting_.casters().addChild(caster);
@@ -62,11 +60,14 @@ LitView::LitView(const Subjects& subjects, const Sun& sun, Quality quality)
   lit->addChild(balls(subjects.bodies, ball, kBodyColor, kPatternColor));
   lit->addChild(balls(subjects.bombs, ball, kBombColor, kBombColor));
   root_->addChild(lit);
-  root_->addChild(make_background(kSkyTop, kSkyBottom));
+  root_->addChild(make_background(kSkyTop, kSkyBottom, quality));
 }
 
-void LitView::show_numbers(bool shown) {
-  ground_->getOrCreateStateSet()->setAttributeAndModes(shown ? numbers_ : natural_);
+void LitView::set_style(bool numbers, bool dense) {
+  const GroundStyle wanted{.quality = style_.quality, .numbers = numbers, .dense = dense};
+  if (wanted == style_) return;
+  style_ = wanted;
+  ground_->getOrCreateStateSet()->setAttributeAndModes(ground_program(style_));
 }
 
 }  // namespace divot::viewer

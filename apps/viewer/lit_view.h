@@ -4,6 +4,7 @@
 
 #include "viewer/lighting.h"
 #include "viewer/look.h"
+#include "viewer/shaders.h"
 
 namespace divot::viewer {
 
@@ -20,14 +21,14 @@ class LitView {
  public:
   LitView(const Subjects& subjects, const Sun& sun, Quality quality);
 
-  /// Whether the ground shows the number that `color_by` asks for, or its natural colours.
-  void show_numbers(bool shown);
+  /// Whether the ground shows the number that `color_by` asks for, and whether its triangles are as small as pixels.
+  void set_style(bool numbers, bool dense);
 
   osg::Group& root() { return *root_; }
   Lighting& lighting() { return lighting_; }
 
  private:
-  osg::ref_ptr<osg::Program> natural_, numbers_;
+  GroundStyle style_;
   osg::ref_ptr<osg::Group> ground_;
   osg::ref_ptr<osg::Group> root_;
   Lighting lighting_;

@@ -1,5 +1,8 @@
 #include "viewer/scene_graph.h"
 
+#include <cmath>
+#include <numbers>
+
 #include "viewer/line_view.h"
 #include "viewer/sphere.h"
 
@@ -8,7 +11,8 @@ namespace {
 
 constexpr float kDetailWaves = 5;     // longest waves of colour across the region
 constexpr double kFlatRelief = 0.01;  // terrain whose relief is a smaller share of its extent has no colours of height
-constexpr int kShadowPause = 3;       // pictures between shadow maps where the ground moves and quality is fast
+constexpr double kDenseCell = 1.0 / 360;  // of the picture's height: a mesh cell of two pixels
+constexpr int kShadowPause = 3;           // pictures between shadow maps where the ground moves and quality is fast
 
 void show(osg::Node& node, bool shown) { node.setNodeMask(shown ? ~0u : 0u); }
 
@@ -51,7 +55,6 @@ void SceneGraph::set_look(const Look& look) {
   show(fast_.root(), !look.wireframe && look.quality == Quality::fast);
   show(particles_.root(), look.particles);
   show(explosions_.root(), look.effects && !look.wireframe);
-  for (LitView* view : {&fine_, &fast_}) view->show_numbers(look.color != ColorBy::natural);
   color_by_->set(static_cast<int>(look.color));
 }
 
@@ -65,6 +68,7 @@ void SceneGraph::update(const Snapshot& snapshot) {
   sinkage_scale_->set(static_cast<float>(surface.spacing));
   ink_cell_->set(static_cast<float>(surface.spacing));
   show_scale(snapshot);
+  lit().set_style(look_.color != ColorBy::natural, surface.spacing < kDenseCell * view_height_);
 
   bodies_.update(surface.origin, snapshot.bodies);
   line_bodies_.update(surface.origin, snapshot.bodies);
@@ -107,9 +111,11 @@ void SceneGraph::set_view(const Vec3d& origin, const Region& region, const Camer
 void SceneGraph::set_focus(const Vec3d& origin, const Region& region, const Camera& camera) {
   // Shadows reach past the region's corners, as what lies there is in the picture too.
   const Vec3d center = region.center() - origin;
+  const double distance = length(camera.target - camera.eye);
+  view_height_ = 2 * distance * std::tan(camera.fov_deg * std::numbers::pi / 360);
   for (LitView* view : {&fine_, &fast_}) {
     view->lighting().set_focus({center.x, center.y, center.z}, 0.85 * length(region.max - region.min));
-    view->lighting().set_haze(length(camera.target - camera.eye));
+    view->lighting().set_haze(distance);
   }
 }
 

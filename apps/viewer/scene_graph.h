@@ -66,6 +66,7 @@ class SceneGraph {
   ColorScale scale_;
   osg::Vec3d eye_;
   double extent_ = 1;        // m, of the region that is looked at
+  double view_height_ = 1;   // m, that the picture shows from top to bottom where the camera looks at
   int pictures_behind_ = 0;  // that the shadows of moving ground are
   osg::ref_ptr<osg::Uniform> height_range_, detail_wave_, sinkage_scale_, ink_cell_, color_by_, ramp_, ramp_range_;
   osg::ref_ptr<osg::Group> lines_;

@@ -13,6 +13,7 @@ namespace divot::viewer {
 namespace {
 
 static_assert(kMaxOccluders == 16, "the length of `occluders` in glsl_light.h and glsl_fast_ground.h");
+static_assert(kMaxBallShadows == 6, "the length of `ball_shadows` there");
 static_assert(kScaleStops == 5, "the length of `ramp` in glsl_ground.h");
 
 const std::string kVersion = "#version 130\n";
@@ -35,16 +36,19 @@ std::string light(Quality quality) {
 
 }  // namespace
 
-osg::ref_ptr<osg::Program> ground_program(Quality quality, bool numbers) {
-  // Two programs and not one with a branch: software renderers take both sides of branches.
-  const std::string head = kVersion + (numbers ? "#define NUMBERS\n" : "");
+osg::ref_ptr<osg::Program> ground_program(const GroundStyle& style) {
+  // Many programs and not one with branches: software renderers take both sides of branches.
+  std::string head = kVersion;
+  if (style.numbers) head += "#define NUMBERS\n";
+  if (style.dense && style.quality == Quality::fast) head += "#define DENSE\n";
   const std::string vertex = head + glsl::kShownNumber;
-  if (quality == Quality::fast) {
-    return make_program(vertex + glsl::kFastGroundVertex,
-                        head + glsl::kFastDevelop + glsl::kRamp + glsl::kFastGroundFragment);
+  if (style.quality == Quality::fast) {
+    const std::string color = std::string(glsl::kFastDevelop) + glsl::kRamp + glsl::kFastGroundColor;
+    return make_program(vertex + color + glsl::kOpenness + glsl::kFastGroundVertex,
+                        head + color + glsl::kFastGroundFragment);
   }
   return make_program(vertex + glsl::kGroundVertex,
-                      head + light(quality) + glsl::kNoise + glsl::kRamp + glsl::kGroundFragment);
+                      head + light(style.quality) + glsl::kNoise + glsl::kRamp + glsl::kGroundFragment);
 }
 
 osg::ref_ptr<osg::Program> wall_program(Quality quality) {
@@ -58,8 +62,9 @@ osg::ref_ptr<osg::Program> ball_program(Quality quality) {
 }
 
 osg::ref_ptr<osg::Program> depth_program() { return make_program(glsl::kDepthVertex, glsl::kDepthFragment); }
-osg::ref_ptr<osg::Program> background_program() {
-  return make_program(glsl::kBackgroundVertex, glsl::kBackgroundFragment);
+osg::ref_ptr<osg::Program> background_program(Quality quality) {
+  const std::string head = kVersion + (quality == Quality::fine ? "#define DITHER\n" : "");
+  return make_program(glsl::kBackgroundVertex, head + glsl::kBackgroundFragment);
 }
 osg::ref_ptr<osg::Program> ink_program() {
   return make_program(kVersion + glsl::kShownNumber + glsl::kRamp + glsl::kInkVertex, glsl::kInkFragment);

@@ -16,7 +16,7 @@ struct NoBounds : osg::Drawable::ComputeBoundingBoxCallback {
 
 }  // namespace
 
-osg::ref_ptr<osg::Geometry> make_background(const osg::Vec3& top, const osg::Vec3& bottom) {
+osg::ref_ptr<osg::Geometry> make_background(const osg::Vec3& top, const osg::Vec3& bottom, Quality quality) {
   osg::ref_ptr<osg::Geometry> quad = new osg::Geometry;
   osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
   for (int row = 0; row <= kRows; ++row) {
@@ -32,7 +32,7 @@ osg::ref_ptr<osg::Geometry> make_background(const osg::Vec3& top, const osg::Vec
   quad->setComputeBoundingBoxCallback(new NoBounds);
 
   osg::StateSet* state = quad->getOrCreateStateSet();
-  state->setAttributeAndModes(background_program());
+  state->setAttributeAndModes(background_program(quality));
   // After what is solid, so that only the pixels that show it are coloured; before what is transparent.
   state->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0, 1, false));
   state->setRenderBinDetails(5, "RenderBin");

@@ -49,7 +49,8 @@ osg::ref_ptr<osg::Node> make_sphere() {
   levels->setRangeMode(osg::LOD::PIXEL_SIZE_ON_SCREEN);
   levels->addChild(make_globe(12, GL_TRIANGLES), 0, 12);
   levels->addChild(make_globe(32, GL_TRIANGLES), 12, 90);
-  levels->addChild(make_globe(128, GL_TRIANGLES), 90, 1e9f);
+  levels->addChild(make_globe(64, GL_TRIANGLES), 90, 400);
+  levels->addChild(make_globe(128, GL_TRIANGLES), 400, 1e9f);
   return levels;
 }
 
