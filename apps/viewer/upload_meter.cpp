@@ -57,14 +57,14 @@ Result<UploadMeter> UploadMeter::create(World& world, int width, int height) {
   return OffscreenContext::create(width, height, samples_of(Quality::fast)).map([&](OffscreenContext&& context) {
     UploadMeter meter(std::make_unique<Impl>(std::move(context)));
     meter.impl_->frame_world(world, width, height);
-    meter.show(world, true);
+    meter.show(world, {});
     return meter;
   });
 }
 
-PictureCost UploadMeter::show(World& world, bool everything) {
+PictureCost UploadMeter::show(World& world, std::vector<DirtyRange> dirty) {
   Snapshot snapshot = take_snapshot(world);
-  if (everything) snapshot.dirty = {{0, static_cast<std::uint32_t>(snapshot.surface.positions.size())}};
+  snapshot.dirty = std::move(dirty);
   PictureCost cost;
   const std::uint64_t before = impl_->scene.terrain().uploaded_bytes();
   const auto start = Clock::now();

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "divot/world.h"
 
@@ -25,9 +26,9 @@ class UploadMeter {
   UploadMeter& operator=(UploadMeter&&) noexcept;
   ~UploadMeter();
 
-  /// Shows the world as it is now. `everything`: all ground is sent again, as if it had no dirty ranges; they are taken
-  /// either way.
-  PictureCost show(World& world, bool everything);
+  /// Shows the world as it is now and sends what `dirty` names (ascending, disjoint). Takes the world's own dirty
+  /// ranges with it.
+  PictureCost show(World& world, std::vector<DirtyRange> dirty);
 
  private:
   struct Impl;

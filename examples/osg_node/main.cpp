@@ -38,21 +38,21 @@ int main(int argc, char** argv) {
   auto mesh = divot::viewer::collect_triangles(*find.found, 1e-3);
   if (!mesh) return fail(mesh.error().front().text());
 
-  // What happens on it: a boulder, and a bomb of 2 t half a second later.
+  // What happens on it: a boulder, and a bomb of 20 t half a second later.
   const divot::Vec3d center = mesh->vertices[mesh->vertices.size() / 2];
   divot::Scene scene;
   scene.terrain = {.shape = std::move(*mesh), .material = "dry_sand"};
-  scene.bodies = {{.name = "boulder", .shape = {3}, .mass = 200e3, .position = center + divot::Vec3d{-45, -5, 0}}};
+  scene.bodies = {{.name = "boulder", .shape = {3}, .mass = 200e3, .position = center + divot::Vec3d{-48, -4, 0}}};
   scene.bodies[0].position.z = 0;
   scene.bodies[0].above_ground = true;
-  scene.bodies[0].velocity = {12, 0, 0};
-  scene.bombs = {{.time = 0.5, .position = center, .yield = 2}};
+  scene.bodies[0].velocity = {20, 0, 0};
+  scene.bombs = {{.time = 0.5, .position = center, .yield = 20}};
   auto world = divot::viewer::WorldNode::create(scene);
   if (!world) return fail(world.error().front().text());
   find.found->getParent(0)->replaceChild(find.found, *world);
 
   osgViewer::Viewer viewer;
-  viewer.setLightingMode(osg::View::SKY_LIGHT);
+  viewer.setLightingMode(osg::View::NO_LIGHT);  // the scene has a sun
   viewer.setSceneData(root);
   return shot.empty() ? viewer.run() : take_shot(viewer, shot);
 }

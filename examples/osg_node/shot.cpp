@@ -23,7 +23,7 @@ void place_camera(osg::Camera& camera, const osg::BoundingSphere& bound) {
   camera.setViewport(0, 0, kWidth, kHeight);
   camera.setProjectionMatrixAsPerspective(30, static_cast<double>(kWidth) / kHeight, 1, 1000);
   const osg::Vec3d center = bound.center();
-  camera.setViewMatrixAsLookAt(center + osg::Vec3d(-0.7, -1.3, 0.8) * bound.radius(), center, {0, 0, 1});
+  camera.setViewMatrixAsLookAt(center + osg::Vec3d(-0.5, -1.1, 0.7) * bound.radius(), center, {0, 0, 1});
 }
 
 }  // namespace
