@@ -11,8 +11,8 @@
 // Sums       none
 namespace divot::terrain {
 
-/// The ground a scene starts with. Fails on a grid, mesh or file that is not usable, naming file and key, and before memory
-/// is taken on one that is larger than TerrainSource::max_vertices. [O(vertices)]
+/// The ground a scene starts with. Fails on a grid, mesh or file that is not usable, naming file and key, and before
+/// memory is taken on one that is larger than TerrainSource::max_vertices. [O(vertices)]
 Result<state::Surface> load_terrain(const Scene& scene);
 
 }  // namespace divot::terrain
