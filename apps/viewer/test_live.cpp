@@ -1,0 +1,139 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "viewer/camera_control.h"
+#include "viewer/color_scale.h"
+#include "viewer/live_world.h"
+#include "viewer/stage_meter.h"
+#include "viewer/toolbox.h"
+
+namespace divot::viewer {
+namespace {
+
+LiveWorld plain() {
+  Scene scene;
+  scene.terrain.shape = GridTerrain{.columns = 20, .rows = 20, .spacing = 10};
+  return LiveWorld::create(scene, std::make_shared<const Jobs>(1)).value();
+}
+
+TEST(LiveWorld, RunsWithTheClock) {
+  LiveWorld live = plain();
+  for (int i = 0; i < 100; ++i) live.advance(0.01);
+  EXPECT_NEAR(live.world().time(), 1, 0.02);
+  EXPECT_FALSE(live.lagging());
+}
+
+TEST(LiveWorld, SlowMotionAndPause) {
+  LiveWorld live = plain();
+  live.next_speed();
+  for (int i = 0; i < 100; ++i) live.advance(0.01);
+  EXPECT_NEAR(live.world().time(), 0.25, 0.02);
+  live.toggle_pause();
+  const double paused = live.world().time();
+  for (int i = 0; i < 10; ++i) live.advance(0.1);
+  EXPECT_EQ(live.world().time(), paused);
+  EXPECT_LT(live.real_time_factor(), 0.01);
+  live.step();
+  EXPECT_GT(live.world().time(), paused);
+}
+
+TEST(LiveWorld, TimeLagsWhereStepsCannotFollow) {
+  LiveWorld live = plain();
+  live.advance(0.2);
+  EXPECT_LT(live.world().time(), 0.1);
+  EXPECT_TRUE(live.lagging());
+  // What was not simulated is not made up for.
+  for (int i = 0; i < 100; ++i) live.advance(0.01);
+  EXPECT_LT(live.world().time(), 1.1);
+  EXPECT_FALSE(live.lagging());
+}
+
+TEST(LiveWorld, RestartForgetsWhatWasAdded) {
+  LiveWorld live = plain();
+  const Toolbox tools(live.world());
+  ASSERT_TRUE(tools.drop(live.world(), 0, 0));
+  ASSERT_TRUE(tools.bomb(live.world(), 20, 0));
+  for (int i = 0; i < 10; ++i) live.step();
+  EXPECT_EQ(live.world().bodies().size(), 1u);
+  EXPECT_TRUE(live.world().bombs().front().exploded);
+  ASSERT_TRUE(live.restart());
+  EXPECT_EQ(live.world().time(), 0);
+  EXPECT_TRUE(live.world().bodies().empty());
+  EXPECT_TRUE(live.world().bombs().empty());
+}
+
+TEST(Toolbox, YieldGoesInStepsAndStaysInRange) {
+  LiveWorld live = plain();
+  Toolbox tools(live.world());
+  for (int i = 0; i < 100; ++i) tools.change_yield(false);
+  EXPECT_DOUBLE_EQ(tools.yield(), 0.1);
+  tools.change_yield(true);
+  EXPECT_DOUBLE_EQ(tools.yield(), 0.2);
+  for (int i = 0; i < 100; ++i) tools.change_yield(true);
+  EXPECT_DOUBLE_EQ(tools.yield(), 1e5);
+}
+
+TEST(Toolbox, BallsPressIntoTheirSoilAndNotThroughIt) {
+  for (const Material& soil : material_presets()) {
+    Scene scene;
+    scene.terrain.shape = GridTerrain{.columns = 40, .rows = 40, .spacing = 1};
+    scene.terrain.material = soil.name;
+    World world = World::create(scene, std::make_shared<const Jobs>(1)).value();
+    const Toolbox tools(world);
+    ASSERT_TRUE(tools.drop(world, 0, 0));
+    for (int i = 0; i < 240; ++i) world.step();
+    const BodyView body = world.bodies().front();
+    EXPECT_TRUE(is_finite(body.position)) << soil.name;
+    EXPECT_GT(body.max_sinkage, 0.02 * body.radius) << soil.name;
+    EXPECT_LT(body.sinkage, 2 * body.radius) << soil.name;
+  }
+}
+
+TEST(CameraControl, KeepsWhatItShould) {
+  const Camera start{.eye = {100, -200, 120}, .target = {10, 20, 5}};
+  CameraControl control(start);
+  EXPECT_LT(length(control.camera().eye - start.eye), 1e-9);
+  control.orbit(0.3, 0.1);
+  EXPECT_NEAR(length(control.camera().eye - control.camera().target), length(start.eye - start.target), 1e-9);
+  EXPECT_LT(length(control.camera().target - start.target), 1e-9);
+  const double before = control.distance();
+  control.zoom(3);
+  control.zoom(-3);
+  EXPECT_NEAR(control.distance(), before, 1e-9);
+  const Vec3d view = control.camera().eye - control.camera().target;
+  control.pan(0.2, -0.1);
+  EXPECT_LT(length(control.camera().eye - control.camera().target - view), 1e-9);
+  control.keep_above(1000, 5);
+  EXPECT_NEAR(control.camera().eye.z, 1005, 1e-9);
+  control.keep_above(std::nan(""), 5);
+  EXPECT_NEAR(control.camera().eye.z, 1005, 1e-9);
+}
+
+TEST(ColorScale, RangesAreRound) {
+  const ColorScale sinkage = color_scale(ColorBy::sinkage, {.largest_sinkage = 23.8f});
+  EXPECT_FLOAT_EQ(sinkage.high, 50);
+  EXPECT_FLOAT_EQ(sinkage.low, -50);
+  EXPECT_FLOAT_EQ(color_scale(ColorBy::sinkage, {.largest_sinkage = 0.02f}).high, 0.02f);
+  EXPECT_TRUE(color_scale(ColorBy::natural, {}).title.empty());
+  const ColorScale height = color_scale(ColorBy::height, {.lowest = 100, .highest = 300});
+  EXPECT_FLOAT_EQ(height.low, 100);
+  EXPECT_FLOAT_EQ(height.high, 300);
+}
+
+TEST(StageMeter, ShowsWhatAPictureTook) {
+  StageMeter meter;
+  std::vector<StageTime> totals = {{.name = "forces", .ms = 0}};
+  for (int i = 1; i < 300; ++i) {
+    totals[0].ms = 2.0 * i;
+    meter.update(totals);
+  }
+  EXPECT_NEAR(meter.rows()[0].ms, 2, 0.01);
+  // A new world counts from 0.
+  totals[0].ms = 0;
+  meter.update(totals);
+  EXPECT_NEAR(meter.rows()[0].ms, 2, 0.01);
+}
+
+}  // namespace
+}  // namespace divot::viewer
