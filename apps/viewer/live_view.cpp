@@ -17,16 +17,6 @@ constexpr double kRefocusZoom = 1.5;  // how much nearer or farther the eye may 
 constexpr double kFocus = 0.7;        // half of what shadows cover, in distances between eye and target
 constexpr int kBoxLevels = 2;         // between two sets of boxes
 
-// A world that shows its hierarchy gives boxes; none beyond the deepest level.
-template <class W>
-std::vector<std::pair<Vec3, Vec3>> boxes_of(const W& world, int level) {
-  if constexpr (requires { world.bvh_boxes(level); }) {
-    return world.bvh_boxes(level);
-  } else {
-    return {};
-  }
-}
-
 }  // namespace
 
 LiveView::LiveView(LiveWorld live, const Look& look, double aspect)
@@ -133,13 +123,13 @@ std::string LiveView::followed() const {
 
 void LiveView::next_boxes() {
   box_level_ += kBoxLevels;
-  if (boxes_of(live_.world(), box_level_).empty()) box_level_ = 0;
+  if (live_.world().bvh_boxes(box_level_).empty()) box_level_ = 0;
   message_ = box_level_ > 0 ? fmt::format("boxes of level {}", box_level_) : "no boxes";
   show_boxes();
 }
 
 void LiveView::show_boxes() {
-  scene_.set_boxes(box_level_ > 0 ? boxes_of(live_.world(), box_level_) : decltype(boxes_of(live_.world(), 0)){});
+  scene_.set_boxes(box_level_ > 0 ? live_.world().bvh_boxes(box_level_) : decltype(live_.world().bvh_boxes(0)){});
 }
 
 void LiveView::advance(double real) { live_.advance(real); }
