@@ -70,6 +70,9 @@ TEST(Materials, CheckNamesTheFieldThatIsWrong) {
   EXPECT_EQ(first_key({.ground = false, .bekker_kphi = 0}), "");
   EXPECT_EQ(first_key({.bekker_n = 3.5}), "bekker_n");
   EXPECT_EQ(first_key({.friction_angle_deg = 61}), "friction_angle_deg");
+  EXPECT_EQ(first_key({.density = 0}), "density");
+  EXPECT_EQ(first_key({.compaction_limit = 1}), "compaction_limit");
+  EXPECT_EQ(first_key({.repose_angle_deg = 90}), "repose_angle_deg");
   EXPECT_EQ(first_key({.ejecta_share = 1}), "ejecta_share");
   EXPECT_EQ(first_key({.cohesion = std::numeric_limits<double>::quiet_NaN()}), "cohesion");
   EXPECT_EQ(first_key({.elastic_stiffness = std::numeric_limits<double>::infinity()}), "elastic_stiffness");

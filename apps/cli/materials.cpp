@@ -36,6 +36,9 @@ constexpr Field kFields[] = {{"reference_spacing", "m", &Material::reference_spa
                              {"friction_angle_deg", "degrees", &Material::friction_angle_deg},
                              {"shear_modulus", "m", &Material::shear_modulus},
                              {"restitution", "", &Material::restitution},
+                             {"density", "kg/m^3", &Material::density},
+                             {"compaction_limit", "", &Material::compaction_limit},
+                             {"repose_angle_deg", "degrees", &Material::repose_angle_deg},
                              {"blast_strength", "Pa", &Material::blast_strength},
                              {"blast_drag", "Pa s/m", &Material::blast_drag},
                              {"ejecta_share", "", &Material::ejecta_share}};

@@ -39,6 +39,11 @@ struct Material {
   double shear_modulus = 0.5;          ///< K of Janosi-Hanamoto, m, > 0
   double restitution = 0.3;            ///< multiplied by the body's, [0, 1]
 
+  // What becomes of soil that is pressed or thrown.
+  double density = 1600.0;         ///< kg/m^3 of undisturbed soil, > 0
+  double compaction_limit = 0.3;   ///< largest share of its volume that the soil can lose by compaction, [0, 1)
+  double repose_angle_deg = 45.0;  ///< slopes of loose soil at rest are no steeper, degrees, (0, 89]
+
   // What a blast meets (scaled blast, docs/physics.md): the soil fails where the pressure exceeds its strength and
   // flows against its drag.
   double blast_strength = 985.0;  ///< Pa, > 0: sets the crater's width

@@ -7,6 +7,7 @@ namespace divot::laws {
 
 Medium make_medium(const Material& material) {
   const auto f = [](double value) { return static_cast<float>(value); };
+  constexpr double kDegree = std::numbers::pi / 180;
   const double cell = material.reference_spacing * material.reference_spacing;
   Medium m{.areal_mass = f(material.particle_mass / cell),
            .bond_energy = f(material.dissociation_energy / cell),
@@ -22,9 +23,12 @@ Medium make_medium(const Material& material) {
            .bekker_n = f(material.bekker_n),
            .elastic_stiffness = f(material.elastic_stiffness),
            .cohesion = f(material.cohesion),
-           .tan_friction = f(std::tan(material.friction_angle_deg * std::numbers::pi / 180)),
+           .tan_friction = f(std::tan(material.friction_angle_deg * kDegree)),
            .shear_modulus = f(material.shear_modulus),
            .restitution = f(material.restitution),
+           .density = f(material.density),
+           .compaction_limit = f(material.compaction_limit),
+           .tan_repose = f(std::tan(material.repose_angle_deg * kDegree)),
            .blast_strength = f(material.blast_strength),
            .blast_drag = f(material.blast_drag),
            .ejecta_share = f(material.ejecta_share)};

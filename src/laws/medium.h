@@ -26,6 +26,9 @@ struct Medium {
   float tan_friction = 0;
   float shear_modulus = 1;  ///< K, m
   float restitution = 0;
+  float density = 1;  ///< kg/m^3
+  float compaction_limit = 0;
+  float tan_repose = 1;      ///< steepest slope of loose soil at rest
   float blast_strength = 0;  ///< Pa
   float blast_drag = 0;      ///< Pa s/m
   float ejecta_share = 0;

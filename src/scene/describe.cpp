@@ -259,6 +259,21 @@ void describe_ground(Visitor& v, Material& m) {
   v.number({.name = "restitution", .range = between(0, 1), .meaning = "multiplied by the body's"}, m.restitution);
 }
 
+void describe_loose_soil(Visitor& v, Material& m) {
+  v.number(
+      {.name = "density", .unit = "kg/m^3", .range = above(0, kHeavy), .meaning = "of soil that nothing has touched"},
+      m.density);
+  v.number({.name = "compaction_limit",
+            .range = {.low = 0, .high = 1, .high_open = true},
+            .meaning = "largest share of its volume that soil can lose by compaction"},
+           m.compaction_limit);
+  v.number({.name = "repose_angle_deg",
+            .unit = "degrees",
+            .range = above(0, 89),
+            .meaning = "angle of repose: slopes of loose soil at rest are no steeper"},
+           m.repose_angle_deg);
+}
+
 void describe_blast(Visitor& v, Material& m) {
   v.number({.name = "blast_strength",
             .unit = "Pa",
@@ -281,6 +296,7 @@ void describe_blast(Visitor& v, Material& m) {
 void describe(Visitor& v, Material& material) {
   describe_particles(v, material);
   describe_ground(v, material);
+  describe_loose_soil(v, material);
   describe_blast(v, material);
 }
 

@@ -16,6 +16,8 @@ struct Soil {
   double friction_angle_deg;
   double shear_modulus;  ///< m
   double restitution;
+  double compaction_limit;
+  double repose_angle_deg;
   double yield_strain;
   double crater_radius, crater_depth;  ///< over the cube root of the charge, m/kg^(1/3)
 };
@@ -31,6 +33,8 @@ constexpr Soil kDrySand = {
     .friction_angle_deg = 28,      // the same
     .shear_modulus = 0.02,         // typical of sand, not measured with the rest
     .restitution = 0.1,            // engineering value: sand swallows a drop
+    .compaction_limit = 0.1,       // engineering value: from 1600 to some 1770 kg/m^3, as dense as sand is tamped
+    .repose_angle_deg = 34,        // dry sand: 30 to 35 degrees wherever it is measured
     .yield_strain = 0.02,          // engineering value: grains slide almost at once
     .crater_radius = 0.297,        // [TM 5-855-1] dry sand
     .crater_depth = 0.149,         // the same
@@ -47,6 +51,8 @@ constexpr Soil kMud = {
     .friction_angle_deg = 11,   // the same
     .shear_modulus = 0.02,      // typical, not measured with the rest
     .restitution = 0.05,        // engineering value: mud swallows nearly all of a drop
+    .compaction_limit = 0.03,   // engineering value: pores full of water, which does not leave at once
+    .repose_angle_deg = 12,     // engineering value: little above its angle of friction
     .yield_strain = 0.05,       // engineering value: wet soil stretches further than dry before it flows
     .crater_radius = 0.456,     // [TM 5-855-1] wet clay
     .crater_depth = 0.228,      // the same
@@ -63,6 +69,8 @@ constexpr Soil kAsphalt = {
     .friction_angle_deg = 40,   // engineering value: interlocked crushed stone
     .shear_modulus = 0.001,     // engineering value: shears at 1 % of the layer
     .restitution = 0.7,         // engineering value: a hard ball on a road
+    .compaction_limit = 0.05,   // engineering value: what air a rolled mix still holds
+    .repose_angle_deg = 45,     // engineering value: broken pieces that interlock
     .yield_strain = 0.005,      // engineering value: cracks at a few tenths of a percent
     .crater_radius = 0.151,     // [TM 5-855-1] concrete slab
     .crater_depth = 0.079,      // the same
@@ -100,6 +108,9 @@ Material material_of(const Soil& soil) {
   m.friction_angle_deg = soil.friction_angle_deg;
   m.shear_modulus = soil.shear_modulus;
   m.restitution = soil.restitution;
+  m.density = soil.density;
+  m.compaction_limit = soil.compaction_limit;
+  m.repose_angle_deg = soil.repose_angle_deg;
   // A blast's pressure falls with the cube of distance and depth goes with strength over drag.
   const double ratio = kPaperRadius / soil.crater_radius;
   const double strength = ratio * ratio * ratio;
