@@ -18,7 +18,7 @@ struct Measurement {
   int threads = 1;
   double ms_per_step = 0, ns_per_particle_step = 0;
   double real_time_factor = 0;    ///< simulated / wall
-  std::vector<StageTime> stages;  ///< of the whole run
+  std::vector<StageTime> stages;  ///< of all steps that were measured
   UpdateCounts updates;
   std::uint64_t state_hash = 0;
 };
@@ -28,6 +28,13 @@ struct Report {
   std::string text;  ///< tables for people
   std::vector<Measurement> results;
   std::vector<cli::BarChart> charts;
+  std::vector<cli::LineChart> line_charts;
+};
+
+/// What a benchmark is asked for.
+struct Request {
+  std::string scenes;            ///< folder of the scene files
+  std::size_t most = 2'000'000;  ///< cases with more particles, vertices or bodies are left out
 };
 
 /// A benchmark by name. `run` fails when its scene cannot be used, or when what it measured is not what it claims to
@@ -35,7 +42,7 @@ struct Report {
 struct Bench {
   const char* name;
   const char* what;
-  Result<Report> (*run)(const std::string& scenes);
+  Result<Report> (*run)(const Request& request);
 };
 
 /// Every benchmark.
@@ -43,6 +50,9 @@ std::span<const Bench> benches();
 
 /// The paper's Figure 1: the parts of a second of simulation with 98 particles, by how often structures are brought up
 /// to date.
-Result<Report> figure1(const std::string& scenes);
+Result<Report> figure1(const Request& request);
+
+/// A step of a world with every particle awake: 100 to 2 million of them, Euler and RK4, one thread and two.
+Result<Report> scaling(const Request& request);
 
 }  // namespace divot::bench

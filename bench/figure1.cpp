@@ -126,10 +126,10 @@ cli::BarChart chart(const std::vector<Outcome>& outcomes) {
 
 }  // namespace
 
-Result<Report> figure1(const std::string& scenes) {
+Result<Report> figure1(const Request& request) {
   std::vector<Case> cases;
   for (const Policy& policy : kPolicies) {
-    auto loaded = scene(scenes, policy);
+    auto loaded = scene(request.scenes, policy);
     if (!loaded) return tl::unexpected(loaded.error());
     cases.push_back({fmt::format("figure1/{}", policy.name), std::move(*loaded)});
   }

@@ -6,9 +6,11 @@
 namespace divot::bench {
 
 std::span<const Bench> benches() {
-  static constexpr Bench kBenches[] = {{"figure1", "parts of a step by update policy, the paper's Figure 1", &figure1},
+  static constexpr Bench kBenches[] = {
+      {"figure1", "parts of a step by update policy, the paper's Figure 1", &figure1},
+      {"scaling", "a step with every particle awake, by particles and threads", &scaling},
 #ifdef DIVOT_HAS_VIEWER
-                                       {"upload", "bytes and time of pictures by what is sent for them", &upload}
+      {"upload", "bytes and time of pictures by what is sent for them", &upload}
 #endif
   };
   return kBenches;

@@ -131,12 +131,12 @@ cli::BarChart chart(const std::vector<Shown>& all, const char* name, const char*
 
 }  // namespace
 
-Result<Report> upload(const std::string& scenes) {
+Result<Report> upload(const Request& request) {
   std::vector<Shown> all = {{.name = "paper", .title = "paper"}, {.name = "rolling", .title = "rolling ball"}};
   constexpr Result<Scene> (*kScenes[])(const std::string&) = {&paper, &rolling};
   Report report;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    const auto done = kScenes[k](scenes).and_then([&](const Scene& scene) { return show(scene, all[k]); });
+    const auto done = kScenes[k](request.scenes).and_then([&](const Scene& scene) { return show(scene, all[k]); });
     if (!done) return tl::unexpected(done.error());
     for (const Measurement& m : all[k].measurements) report.results.push_back(m);
   }

@@ -245,5 +245,46 @@ TEST(EventsCrater, OnASlopeIsSymmetricAcrossIt) {
     for (double y = 0.5; y <= 4; y += 0.5) EXPECT_NEAR(sunk(x, y), sunk(x, -y), 0.03 * crater.depth) << x << ' ' << y;
 }
 
+// ---- pushes
+
+Scene calm_ground() {
+  Scene scene;
+  scene.terrain.shape = GridTerrain{.columns = 41, .rows = 41, .spacing = 10.9};
+  return scene;
+}
+
+TEST(EventsPush, GroundMovesWithinTheRadiusAlone) {
+  World world = test::make_world(calm_ground());
+  ASSERT_TRUE(world.push_ground({.position = {11, 22, 500}, .radius = 60, .velocity = {0, 0, 3}}));
+  world.step();
+  const SurfaceView ground = world.surface();
+  double highest = 0;
+  for (std::uint32_t v = 0; v < ground.positions.size(); ++v) {
+    const Vec3d p = to_double(ground.positions[v]) + ground.origin;
+    const double r = std::hypot(p.x - 11, p.y - 22);
+    highest = std::max(highest, p.z);
+    if (r > 60) {
+      EXPECT_EQ(p.z, 0) << r;
+    }
+    if (r < 50) {
+      EXPECT_GT(p.z, 0) << r;
+    }
+  }
+  // No faster than it was pushed, and slowed by no more than a step of ground and bonds.
+  EXPECT_LT(highest, 3.0 / 60);
+  EXPECT_GT(highest, 0.5 * 3.0 / 60);
+}
+
+TEST(EventsPush, TwoAddUpAndBadNumbersAreRefused) {
+  World once = test::make_world(calm_ground()), twice = test::make_world(calm_ground());
+  const GroundPush push{.radius = 100, .velocity = {0, 0, 0.01}};
+  ASSERT_TRUE(once.push_ground(push));
+  ASSERT_TRUE(twice.push_ground(push) && twice.push_ground(push));
+  once.step(), twice.step();
+  EXPECT_NEAR(twice.ground_height(0, 0), 2 * once.ground_height(0, 0), 0.02 * once.ground_height(0, 0));
+  EXPECT_FALSE(once.push_ground({.radius = 0, .velocity = {0, 0, 1}}));
+  EXPECT_FALSE(once.push_ground({.radius = 1, .velocity = {0, 0, NAN}}));
+}
+
 }  // namespace
 }  // namespace divot::events

@@ -62,10 +62,11 @@ Json to_json(const bench::Measurement& m) {
           {"state_hash", fmt::format("{:016x}", m.state_hash)}};
 }
 
-Result<void> write_charts(const std::vector<BarChart>& charts, const std::string& folder) {
+template <class Chart>
+Result<void> write_charts(const std::vector<Chart>& charts, const std::string& folder) {
   if (charts.empty()) return {};
   if (const auto made = output::make_folder(folder); !made) return made;
-  for (const BarChart& chart : charts) {
+  for (const Chart& chart : charts) {
     const std::string file = (fs::path(folder) / (chart.name + ".png")).string();
     // Numbers are worth having without their picture.
     if (const auto drawn = write_png(chart, file); drawn)
@@ -85,12 +86,14 @@ int bench(const BenchOptions& options) {
   fmt::print("machine: {}\n", machine);
   Json json = {{"machine", machine}, {"results", Json::array()}};
   for (const bench::Bench& one : *chosen) {
-    const auto measured = one.run(scenes_folder(options.scenes));
+    const auto measured = one.run({.scenes = scenes_folder(options.scenes), .most = options.most});
     if (!measured) return report(measured.error(), kFailed);
     fmt::print("{}", measured->text);
     for (const bench::Measurement& m : measured->results) json["results"].push_back(to_json(m));
     const std::string folder = options.out.empty() ? (fs::path("out") / "bench").string() : options.out;
     if (const auto written = write_charts(measured->charts, folder); !written) return report(written.error(), kFailed);
+    if (const auto written = write_charts(measured->line_charts, folder); !written)
+      return report(written.error(), kFailed);
   }
   if (options.json.empty()) return kDone;
   const auto written = output::write_json(options.json, json);

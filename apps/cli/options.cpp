@@ -185,6 +185,8 @@ void add_bench(CLI::App& app, BenchOptions& options) {
   command.add_option("--json", options.json, "file for the numbers")->type_name("FILE");
   add_out(command, options.out, "folder for plots (default: out/bench)");
   command.add_option("--scenes", options.scenes, "folder of the scene files")->type_name("DIR");
+  command.add_option("--most", options.most, "leave out cases with more particles, vertices or bodies than this")
+      ->type_name("N");
 }
 
 // CLI11 says "--duration: 1 required TEXT missing" and the like; ours ends with where to find help.

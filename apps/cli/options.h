@@ -63,6 +63,7 @@ struct BenchOptions {
   std::string json;                ///< file for results; empty: none
   std::string out;                 ///< folder for plots
   std::string scenes;              ///< folder of the scene files
+  std::size_t most = 2'000'000;    ///< cases with more particles, vertices or bodies are left out
 };
 
 /// What the command line asks for.

@@ -77,17 +77,40 @@ std::string y_range(const BarChart& chart) {
                      std::pow(10, std::floor(std::log10(least))), 3 * largest);
 }
 
-std::string script(const BarChart& chart, const std::string& path) {
+// What both kinds of chart start with.
+std::string page(const std::string& title, const std::string& y_label, const std::string& path) {
   std::string out = "set terminal pngcairo size 1200,640 font 'DejaVu Sans,13' background rgb 'white'\n";
   out += "set encoding utf8\nset output " + quoted(path) + "\n";
-  out += fmt::format("set title {} textcolor rgb '{}' font ',16' noenhanced\n", quoted(chart.title), kInk);
-  out += fmt::format("set ylabel {} textcolor rgb '{}' noenhanced\n", quoted(chart.y_label), kInk);
+  out += fmt::format("set title {} textcolor rgb '{}' font ',16' noenhanced\n", quoted(title), kInk);
+  out += fmt::format("set ylabel {} textcolor rgb '{}' noenhanced\n", quoted(y_label), kInk);
   out += fmt::format("set border 3 linecolor rgb '{}'\nset tics nomirror textcolor rgb '{}'\n", kInk, kInk);
-  out += "set xtics scale 0\nset grid ytics linecolor rgb '#d8dde3' linetype 1\n";
+  return out + "set grid ytics linecolor rgb '#d8dde3' linetype 1\n";
+}
+
+std::string script(const BarChart& chart, const std::string& path) {
+  std::string out = page(chart.title, chart.y_label, path) + "set xtics scale 0\n";
   out += fmt::format("set key top right textcolor rgb '{}' noenhanced\n", kInk);
   out += "set style fill solid 1 noborder\n";
   out += fmt::format("set xrange [-0.5:{}]\n", static_cast<double>(chart.labels.size()) - 0.5);
   return out + y_range(chart) + data_block(chart) + plot_line(chart);
+}
+
+std::string script(const LineChart& chart, const std::string& path) {
+  std::string out = page(chart.title, chart.y_label, path);
+  out += fmt::format("set xlabel {} textcolor rgb '{}' noenhanced\n", quoted(chart.x_label), kInk);
+  out += fmt::format("set key top left textcolor rgb '{}' noenhanced\n", kInk);
+  out += "set logscale xy\nset format x '%g'\nset format y '%g'\n";
+  std::string plot;
+  for (std::size_t k = 0; k < chart.series.size(); ++k) {
+    const LineChart::Series& series = chart.series[k];
+    out += fmt::format("$data{} << end_of_data\n", k);
+    for (std::size_t point = 0; point < series.x.size(); ++point)
+      out += fmt::format("{} {}\n", series.x[point], series.y[point]);
+    out += "end_of_data\n";
+    plot += fmt::format("{} $data{} using 1:2 with linespoints linewidth 2 pointtype 7 linecolor rgb '{}' title {}",
+                        k == 0 ? "plot" : ",", k, kColors[k % kColors.size()], quoted(series.name));
+  }
+  return out + plot + "\n";
 }
 
 tl::unexpected<Errors> failure(const std::string& path, const std::string& problem) {
@@ -138,9 +161,8 @@ int run_gnuplot(const std::string& text) {
   return WEXITSTATUS(status);
 }
 
-}  // namespace
-
-Result<void> write_png(const BarChart& chart, const std::string& path) {
+template <class Chart>
+Result<void> draw(const Chart& chart, const std::string& path) {
   auto file = output::AtomicFile::create(path);
   if (!file) return tl::unexpected(file.error());
   const int status = run_gnuplot(script(chart, file->temporary()));
@@ -148,5 +170,10 @@ Result<void> write_png(const BarChart& chart, const std::string& path) {
   if (status != 0) return failure(path, "gnuplot could not; it needs its pngcairo terminal");
   return file->commit();
 }
+
+}  // namespace
+
+Result<void> write_png(const BarChart& chart, const std::string& path) { return draw(chart, path); }
+Result<void> write_png(const LineChart& chart, const std::string& path) { return draw(chart, path); }
 
 }  // namespace divot::cli

@@ -59,6 +59,14 @@ struct SoilVolume {
   double relative_error() const;
 };
 
+/// A shove, as of a shock through the ground or of something that no body stands for. Ground within `radius` gets a
+/// velocity: all of it in the middle, falling with (1 - (r/radius)^2)^2 to none at the edge.
+struct GroundPush {
+  Vec3d position;     ///< m, in the terrain's coordinates; the height does not matter
+  double radius = 1;  ///< m, > 0, horizontal
+  Vec3d velocity;     ///< m/s
+};
+
 /// Ground, bodies and bombs that move together. Steps on the threads it was given; several worlds live side by side.
 class World {
  public:
@@ -78,6 +86,10 @@ class World {
 
   /// Adds a bomb; one whose time has passed goes off in the next step. Fails like a scene with that bomb.
   Result<void> add_bomb(const Bomb& bomb);
+
+  /// Pushes the ground at the start of the next step, on top of what it does already; what a body carries stays with
+  /// the body. Fails when a number is not finite or the radius is not above 0. [O(log faces + pushed)]
+  Result<void> push_ground(const GroundPush& push);
 
   double time() const;  ///< s
   std::uint64_t steps() const;

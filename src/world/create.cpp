@@ -139,6 +139,16 @@ Result<BodyId> World::spawn(const BodySettings& settings) {
   return BodyId{static_cast<std::uint32_t>(impl_->bodies.size() - 1)};
 }
 
+Result<void> World::push_ground(const GroundPush& push) {
+  if (!is_finite(push.position) || !is_finite(push.velocity) || !(push.radius > 0) || !std::isfinite(push.radius))
+    return fail({.key = "push",
+                 .problem = fmt::format("radius {}, velocity ({}, {}, {})", push.radius, push.velocity.x,
+                                        push.velocity.y, push.velocity.z),
+                 .expected = "finite numbers and a radius above 0"});
+  events::push_ground(push, impl_->surface, impl_->tree.bvh, impl_->region_scratch, impl_->kicks);
+  return {};
+}
+
 Result<void> World::add_bomb(const Bomb& bomb) {
   Scene alone;
   alone.bombs.push_back(bomb);

@@ -79,6 +79,7 @@ bool rescue(state::Body& body, const Vec3d& last) {
 
 void World::Impl::set_off_bombs() {
   timed(Stage::events, [&] {
+    for (const events::Kick& kick : kicks) wake.push_back(kick.vertex);
     for (PlannedBomb& planned : bombs) {
       // A bomb belongs to the step whose start is nearest.
       if (planned.exploded || planned.bomb.time > time() + 0.5 * scene.dt) continue;
@@ -114,6 +115,7 @@ void World::Impl::move_bodies(StepReport& report) {
 bool World::Impl::wake_and_sleep() {
   return timed(Stage::activation, [&] {
     const bool changed = activation::update(particles, soil, surface, media, wake, activation_scratch);
+    events::kick(kicks, surface, soil, particles);
     contact::carry(bodies, particles, soil, surface, scene.dt, contact_scratch);
     // Ground that a blast makes flow does so until it comes to rest.
     for (const state::Blast& blast : blasts)

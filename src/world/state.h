@@ -7,6 +7,7 @@
 #include "contact/contact.h"
 #include "core/timers.h"
 #include "divot/world.h"
+#include "events/events.h"
 #include "integration/integrators.h"
 #include "laws/medium.h"
 #include "neighbours/neighbours.h"
@@ -52,6 +53,7 @@ struct World::Impl {
   contact::RigidBodies rigid;
   settle::Moved moved;
   std::vector<std::uint32_t> wake;
+  std::vector<events::Kick> kicks;
   std::vector<bool> dirty_chunk;  ///< [vertex / kDirtyChunk]
 
   activation::Scratch activation_scratch;
