@@ -28,7 +28,7 @@ struct Report {
   std::string text;  ///< tables for people
   std::vector<Measurement> results;
   std::vector<cli::BarChart> charts;
-  std::vector<cli::LineChart> line_charts;
+  std::vector<cli::CurveChart> line_charts;
 };
 
 /// What a benchmark is asked for.

@@ -103,20 +103,28 @@ std::string line(const Measurement& m, const Way& way) {
 }
 
 // One curve for each integrator and number of threads, and what real time would be.
-cli::LineChart chart(const std::vector<Measurement>& results) {
-  cli::LineChart chart{.name = "scaling",
-                       .title = "A step of 1/60 s with every particle awake",
-                       .x_label = "particles",
-                       .y_label = "time for a step, ms"};
+cli::CurveChart chart(const std::vector<Measurement>& results) {
+  using Style = cli::CurveChart::Series::Style;
+  cli::CurveChart chart{.name = "scaling",
+                        .title = "A step of 1/60 s with every particle awake",
+                        .x_label = "particles",
+                        .y_label = "time for a step, ms",
+                        .log_x = true,
+                        .log_y = true};
   for (const Measurement& m : results) {
     const std::string name =
         fmt::format("{}, {} thread{}", m.name.substr(m.name.find('/') + 1), m.threads, m.threads == 1 ? "" : "s");
     auto series = std::find_if(chart.series.begin(), chart.series.end(), [&](const auto& s) { return s.name == name; });
-    if (series == chart.series.end()) series = chart.series.insert(series, {name, {}, {}});
-    series->x.push_back(static_cast<double>(m.particles)), series->y.push_back(m.ms_per_step);
+    if (series == chart.series.end())
+      series = chart.series.insert(series, {name, Style::joined, static_cast<int>(chart.series.size()), {}});
+    series->points.emplace_back(static_cast<double>(m.particles), m.ms_per_step);
   }
-  if (!chart.series.empty())
-    chart.series.push_back({"real time", {chart.series[0].x.front(), chart.series[0].x.back()}, {1e3 / 60, 1e3 / 60}});
+  if (chart.series.empty()) return chart;
+  const auto& first = chart.series.front().points;
+  chart.series.push_back({"real time",
+                          Style::dashes,
+                          static_cast<int>(chart.series.size()),
+                          {{first.front().first, 1e3 / 60}, {first.back().first, 1e3 / 60}}});
   return chart;
 }
 

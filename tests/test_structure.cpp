@@ -99,6 +99,12 @@ TEST(Structure, OnlyTheViewerIncludesOpenSceneGraph) {
       for (const std::string& include : includes(file)) EXPECT_FALSE(include.starts_with("osg")) << file;
 }
 
+// What is validated is what users get.
+TEST(Structure, ValidationKnowsOnlyThePublicInterface) {
+  for (const fs::path& file : files_below("validation"))
+    for (const std::string& include : includes(file)) EXPECT_FALSE(is_source_folder(folder_of(include))) << file;
+}
+
 TEST(Structure, PublicHeadersIncludeOnlyPublicHeaders) {
   for (const fs::path& file : files_below("include"))
     for (const std::string& include : includes(file))

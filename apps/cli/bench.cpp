@@ -6,7 +6,9 @@
 #include <filesystem>
 
 #include "bench/machine.h"
+#include "cli/charts.h"
 #include "cli/commands.h"
+#include "cli/installed.h"
 #include "cli/scene_input.h"
 #include "output/atomic_file.h"
 #include "output/json.h"
@@ -35,15 +37,6 @@ Result<std::vector<bench::Bench>> choose(const std::vector<std::string>& names) 
   return chosen;
 }
 
-// Beside the program where it is installed, else in the source tree it was built from.
-std::string scenes_folder(const std::string& asked) {
-  if (!asked.empty()) return asked;
-  std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  const fs::path installed = program.parent_path() / DIVOT_INSTALLED_SCENES;
-  return fs::is_directory(installed, ignored) ? fs::weakly_canonical(installed, ignored).string() : DIVOT_SCENE_DIR;
-}
-
 Json to_json(const bench::Measurement& m) {
   Json stages = Json::object();
   for (const StageTime& stage : m.stages) stages[stage.name] = {{"ms", stage.ms}, {"calls", stage.calls}};
@@ -60,21 +53,6 @@ Json to_json(const bench::Measurement& m) {
             {"bvh_rebuilds", m.updates.bvh_rebuilds},
             {"missed_pairs", m.updates.missed_pairs}}},
           {"state_hash", fmt::format("{:016x}", m.state_hash)}};
-}
-
-template <class Chart>
-Result<void> write_charts(const std::vector<Chart>& charts, const std::string& folder) {
-  if (charts.empty()) return {};
-  if (const auto made = output::make_folder(folder); !made) return made;
-  for (const Chart& chart : charts) {
-    const std::string file = (fs::path(folder) / (chart.name + ".png")).string();
-    // Numbers are worth having without their picture.
-    if (const auto drawn = write_png(chart, file); drawn)
-      fmt::print("plot: {}\n", file);
-    else
-      report(drawn.error(), kDone);
-  }
-  return {};
 }
 
 }  // namespace

@@ -11,5 +11,6 @@ int materials(const MaterialsOptions& options);
 int render(const RenderOptions& options);
 int view(const ViewOptions& options);
 int bench(const BenchOptions& options);
+int validate(const ValidateOptions& options);
 
 }  // namespace divot::cli

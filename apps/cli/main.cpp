@@ -13,6 +13,7 @@ int carry_out(const MaterialsOptions& options) { return materials(options); }
 int carry_out(const RenderOptions& options) { return render(options); }
 int carry_out(const ViewOptions& options) { return view(options); }
 int carry_out(const BenchOptions& options) { return bench(options); }
+int carry_out(const ValidateOptions& options) { return validate(options); }
 
 }  // namespace
 }  // namespace divot::cli

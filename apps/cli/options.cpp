@@ -189,6 +189,22 @@ void add_bench(CLI::App& app, BenchOptions& options) {
       ->type_name("N");
 }
 
+void add_validate(CLI::App& app, ValidateOptions& options) {
+  CLI::App& command = *app.add_subcommand("validate", "Compare simulations with what was measured or published");
+  command.add_option("NAME", options.names, "families of cases, or cases (default: all)")->type_name("");
+  command.add_option("--json", options.json, "file for the comparisons")->type_name("FILE");
+  CLI::Option* out = add_out(command, options.out, "folder for plots (default: out/validate)");
+  command.add_option("--docs", options.docs, "also writes validation.md, with its plots, into this folder")
+      ->type_name("DIR")
+      ->excludes(out);
+  command.add_flag("--list", options.list, "say what would be compared, and run nothing");
+  command.add_option("--scenes", options.scenes, "folder of the scene files")->type_name("DIR");
+  command.add_option("--data", options.data, "folder of the measured data")->type_name("DIR");
+  command.add_option("--threads", options.threads, "comparisons made at a time (default: all cores)")
+      ->check(CLI::Range(1, kMostThreads).description(""))
+      ->type_name("N");
+}
+
 // CLI11 says "--duration: 1 required TEXT missing" and the like; ours ends with where to find help.
 int complain(const CLI::App& app, const CLI::ParseError& error) {
   std::string command = "divot";
@@ -210,12 +226,14 @@ tl::expected<Command, int> parse(int argc, char** argv) {
   RenderOptions render;
   ViewOptions view;
   BenchOptions bench;
+  ValidateOptions validate;
   add_run(app, run);
   add_check(app, check);
   add_materials(app, materials);
   add_render(app, render);
   add_view(app, view);
   add_bench(app, bench);
+  add_validate(app, validate);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
@@ -229,6 +247,7 @@ tl::expected<Command, int> parse(int argc, char** argv) {
   if (app.got_subcommand("render")) return render;
   if (app.got_subcommand("view")) return view;
   if (app.got_subcommand("bench")) return bench;
+  if (app.got_subcommand("validate")) return validate;
   fmt::print(stderr, "{}", app.help());
   return tl::unexpected(kBadInput);
 }

@@ -66,8 +66,19 @@ struct BenchOptions {
   std::size_t most = 2'000'000;    ///< cases with more particles, vertices or bodies are left out
 };
 
+struct ValidateOptions {
+  std::vector<std::string> names;  ///< families or cases; empty: all
+  std::string json;                ///< file for results; empty: none
+  std::string out;                 ///< folder for plots
+  std::string docs;                ///< folder for validation.md and its plots; empty: not written
+  std::string scenes, data;        ///< folders of scene files and of measured data
+  int threads = 0;                 ///< 0: one for each core
+  bool list = false;
+};
+
 /// What the command line asks for.
-using Command = std::variant<RunOptions, CheckOptions, MaterialsOptions, RenderOptions, ViewOptions, BenchOptions>;
+using Command =
+    std::variant<RunOptions, CheckOptions, MaterialsOptions, RenderOptions, ViewOptions, BenchOptions, ValidateOptions>;
 
 /// Reads the command line. When there is nothing left to do (help, version, bad usage) it has said so and the error is
 /// the exit status.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "divot/errors.h"
@@ -21,20 +23,24 @@ struct BarChart {
   bool log_scale = false;
 };
 
-/// Curves through points, both axes logarithmic.
-struct LineChart {
+/// Values over values: lines, points and marks with their names beside them.
+struct CurveChart {
   std::string name;  ///< of the file, without ending
-  std::string title;
-  std::string x_label, y_label;
+  std::string title, x_label, y_label;
+  bool log_x = false, log_y = false;
   struct Series {
-    std::string name;
-    std::vector<double> x, y;  ///< [point] > 0
+    /// A curve, a broken one, one with its points on it, filled points, empty ones.
+    enum class Style : std::uint8_t { line, dashes, joined, dots, marks };
+    std::string name;  ///< empty: not in the legend
+    Style style = Style::line;
+    int color = 0;                                  ///< series that belong together share one, >= 0
+    std::vector<std::pair<double, double>> points;  ///< x, y; above 0 where the axis is logarithmic
   };
-  std::vector<Series> series;
+  std::vector<Series> series;  ///< at least one
 };
 
-/// Draws `chart` with gnuplot as a PNG file. Fails when gnuplot is not installed or refuses.
+/// Draws a chart with gnuplot as a PNG file. Fails when gnuplot is not installed or refuses.
 Result<void> write_png(const BarChart& chart, const std::string& path);
-Result<void> write_png(const LineChart& chart, const std::string& path);
+Result<void> write_png(const CurveChart& chart, const std::string& path);
 
 }  // namespace divot::cli

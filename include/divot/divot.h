@@ -1,6 +1,7 @@
 #pragma once
 
 // The whole public interface.
+#include "divot/blast.h"
 #include "divot/errors.h"
 #include "divot/ids.h"
 #include "divot/jobs.h"
