@@ -17,9 +17,11 @@ constexpr const char* kIntroduction =
     "`measured` is what the source says: a value, a range, or a limit. `error` is relative to it; for a range to its\n"
     "middle, for a limit how far beyond it. The data lie in [validation/data](../validation/data/README.md).\n";
 
-// Three digits, without a sign of which nobody asks.
-std::string number(double value) { return std::isnan(value) ? "none" : fmt::format("{:.3g}", value); }
-std::string percent(double share) { return std::isnan(share) ? "" : fmt::format("{:.2g} %", 100 * share); }
+std::string number(double value) { return std::isnan(value) ? "none" : fmt::format("{:.4g}", value); }
+std::string percent(double share) {
+  if (std::isnan(share)) return "";
+  return share >= 1e-3 || share < 1e-5 ? fmt::format("{:.1f} %", 100 * share) : fmt::format("{:.1g} %", 100 * share);
+}
 std::string unit(const Case& one) { return one.unit == "1" ? "" : one.unit; }
 
 // Text in a cell of a table.
@@ -74,7 +76,7 @@ Result<std::string> page(const std::vector<Chosen>& chosen, const Findings& find
   std::string text = kIntroduction;
   text += fmt::format("\nOf {} cases {} hold.\n", count, count - failures(findings));
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    text += fmt::format("\n## {}\n\n{}.\n\n", chosen[k].family->name, chosen[k].family->what);
+    text += fmt::format("\n## {}: {}\n\n", chosen[k].family->name, chosen[k].family->what);
     for (const cli::CurveChart& chart : charts)
       if (chart.name == chosen[k].family->figure)
         text += fmt::format("![{}](validation/{}.png)\n\n", chart.title, chart.name);

@@ -25,7 +25,10 @@ using validation::Bound;
 using validation::Case;
 using validation::Finding;
 
-std::string percent(double share) { return std::isnan(share) ? "" : fmt::format("{:.2g} %", 100 * share); }
+std::string percent(double share) {
+  if (std::isnan(share)) return "";
+  return share >= 1e-3 || share < 1e-5 ? fmt::format("{:.1f} %", 100 * share) : fmt::format("{:.1g} %", 100 * share);
+}
 
 bool is_limit(const Case& one) { return one.bound == Bound::at_most || one.bound == Bound::at_least; }
 

@@ -106,7 +106,8 @@ TEST(ValidateCases, AreWhole) {
     EXPECT_FALSE(one.unit.empty()) << one.name;
     EXPECT_TRUE(std::isfinite(one.measured) && one.measured != 0) << one.name;
     const bool limit = one.bound == Bound::at_most || one.bound == Bound::at_least;
-    EXPECT_EQ(one.tolerance == 0, limit) << one.name;
+    EXPECT_EQ(limit ? one.tolerance : 0, 0) << one.name;
+    EXPECT_GE(one.tolerance, 0) << one.name;
   }
   EXPECT_GT(names.size(), 100u);
 }
