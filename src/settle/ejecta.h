@@ -1,24 +1,19 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include "laws/medium.h"
-#include "settle/settle.h"
+#include "settle/ground.h"
 #include "state/blasts.h"
-#include "state/particles.h"
-#include "state/soil.h"
-#include "state/surface.h"
 
 namespace divot::settle {
 
-/// Soil that a blast drove down in this step: a share of it is thrown, the rest is compacted. Returns the volume
-/// thrown, m^3. Call it before the surface follows its particles.
-double throw_soil(const state::Blast& blast, const state::Particles& particles, const state::Surface& surface,
+/// Of the soil that a blast drove down in this step a share is thrown; the rest stays compacted. Returns the volume
+/// thrown, m^3. `lost`: [particle] m^3 that vanished below it in this step.
+double throw_soil(const state::Blast& blast, const state::Particles& particles, std::span<const double> lost,
                   state::Soil& soil, std::span<const laws::Medium> media);
 
-/// Spreads that volume over the ground the blast's ejecta land on.
-void land_soil(const state::Blast& blast, float volume, state::Particles& particles, state::Surface& surface,
-               state::Soil& soil, Moved& moved);
+/// Spreads that volume over the ground the blast's ejecta land on. Returns how far it rose at most, m.
+float land_soil(const state::Blast& blast, double volume, Ground& ground);
 
 }  // namespace divot::settle

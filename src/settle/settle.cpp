@@ -10,18 +10,37 @@ namespace {
 
 // Moves the surface with its particles and counts for how long each has been still: by its speed, or because it has not
 // come further than that speed would bring it. Far from the origin a creep can be too slow for a float to take a step.
-void move_surface(state::Particles& p, state::Surface& surface, const Stillness& stillness, Moved& moved) {
+// What the ground loses by that has become denser; whatever goes elsewhere instead is taken from it later.
+void move_surface(const Stillness& stillness, Ground& ground, std::vector<double>& lost) {
+  state::Particles& p = ground.particles;
+  Moved& moved = ground.moved;
+  lost.assign(p.size(), 0);
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (p.hold[i] == Hold::anchor) continue;
-    Vec3& place = surface.position[p.vertex[i]];
+    const std::uint32_t vertex = p.vertex[i];
+    const Vec3 place = ground.surface.position[vertex];
+    // The border of the terrain, and of holes in it, stays where it is on the map.
+    if (ground.surface.mesh.is_boundary(vertex)) p.x[i] = place.x, p.y[i] = place.y;
     const float step = length(p.position(i) - place);
     const bool still = length(p.velocity(i)) < stillness.speed || step < stillness.step;
     p.still_steps[i] = still ? static_cast<std::uint16_t>(std::min(p.still_steps[i] + 1, 0xffff)) : std::uint16_t{0};
     if (step == 0) continue;
-    place = p.position(i);
-    moved.vertices.push_back(p.vertex[i]);
+    lost[i] = move_vertex(ground.surface, vertex, p.position(i));
+    ground.soil.compacted[p.column[i]] += lost[i];
+    moved.vertices.push_back(vertex);
     moved.distance = std::max(moved.distance, step);
     if (p.hold[i] == Hold::free) moved.free_distance = std::max(moved.free_distance, step);
+  }
+}
+
+void throw_and_land(const std::vector<state::Blast>& blasts, std::span<const laws::Medium> media,
+                    std::span<const double> lost, Ground& ground) {
+  for (const state::Blast& blast : blasts) {
+    if (!blast.active) continue;
+    const double thrown = throw_soil(blast, ground.particles, lost, ground.soil, media);
+    if (thrown <= 0) continue;
+    const float rose = land_soil(blast, thrown, ground);
+    ground.moved.distance += rose, ground.moved.free_distance += rose;
   }
 }
 
@@ -34,6 +53,11 @@ bool still_acts(const state::Blast& blast, const state::Particles& p, const stat
   });
 }
 
+void sort_unique(std::vector<std::uint32_t>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
 // For good: what is elastic is given up.
 void hand_over(const state::Particles& p, std::size_t i, state::Soil& soil) {
   const std::uint32_t column = p.column[i];
@@ -44,15 +68,13 @@ void hand_over(const state::Particles& p, std::size_t i, state::Soil& soil) {
 }  // namespace
 
 void update(state::Particles& p, state::Soil& soil, state::Surface& surface, std::vector<state::Blast>& blasts,
-            std::span<const laws::Medium> media, const Stillness& stillness, double time, Moved& moved) {
+            std::span<const laws::Medium> media, const Stillness& stillness, double time, Moved& moved,
+            Scratch& scratch) {
   moved.vertices.clear();
   moved.distance = moved.free_distance = 0;
-  for (state::Blast& blast : blasts) {
-    if (!blast.active) continue;
-    const double thrown = throw_soil(blast, p, surface, soil, media);
-    if (thrown > 0) land_soil(blast, static_cast<float>(thrown), p, surface, soil, moved);
-  }
-  move_surface(p, surface, stillness, moved);
+  Ground ground{p, soil, surface, moved};
+  move_surface(stillness, ground, scratch.lost);
+  throw_and_land(blasts, media, scratch.lost, ground);
 
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (p.hold[i] != Hold::free) continue;
@@ -62,6 +84,7 @@ void update(state::Particles& p, state::Soil& soil, state::Surface& surface, std
     p.set_velocity(i, {});
     hand_over(p, i, soil);
   }
+  sort_unique(moved.vertices);
   for (state::Blast& blast : blasts) blast.active = blast.active && still_acts(blast, p, soil, time);
 }
 

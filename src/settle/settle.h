@@ -6,6 +6,7 @@
 
 #include "divot/jobs.h"
 #include "laws/medium.h"
+#include "settle/ground.h"
 #include "state/blasts.h"
 #include "state/particles.h"
 #include "state/soil.h"
@@ -15,15 +16,8 @@
 // reads     particles, blasts
 // writes    surface, soil, sleep counters
 // parallel  no: bound by memory, one pass over the awake
-// sums      thrown volume over a blast's columns in order
+// sums      volumes over a vertex's faces in their order; thrown volume over a blast's columns in order
 namespace divot::settle {
-
-/// What the surface did in this step.
-struct Moved {
-  std::vector<std::uint32_t> vertices;  ///< that moved, repeats allowed
-  float distance = 0;                   ///< m, the furthest
-  float free_distance = 0;              ///< m, the furthest of those no body carried
-};
 
 /// A particle slower than this, or that moves less than this in each step, for so many steps goes to sleep.
 struct Stillness {
@@ -32,9 +26,15 @@ struct Stillness {
   std::uint16_t steps = 1;
 };
 
-/// Moves the surface with its particles. Those that go to sleep give up their elastic rest: where they are is where the
-/// ground now stands.
+/// Arrays the stage needs; they grow and stay.
+struct Scratch {
+  std::vector<double> lost;  ///< [particle] m^3 that vanished below it in this step
+};
+
+/// Moves the surface with its particles and keeps the books of soil. Those that go to sleep give up their elastic rest:
+/// where they are is where the ground now stands.
 void update(state::Particles& particles, state::Soil& soil, state::Surface& surface, std::vector<state::Blast>& blasts,
-            std::span<const laws::Medium> media, const Stillness& stillness, double time, Moved& moved);
+            std::span<const laws::Medium> media, const Stillness& stillness, double time, Moved& moved,
+            Scratch& scratch);
 
 }  // namespace divot::settle

@@ -24,7 +24,8 @@ std::uint32_t touch_column(Surface& surface, Soil& soil, std::uint32_t vertex) {
   soil.plastic.push_back(0);
   soil.shear.push_back({});
   soil.area.push_back(vertex_area(surface, vertex));
-  soil.added.push_back(0);
+  soil.gained.push_back(0);
+  soil.compacted.push_back(0);
   return column;
 }
 

@@ -19,14 +19,15 @@ struct Soil {
   std::vector<float> plastic;  ///< [column] sinkage that load has made permanent, m: where Bekker's curve is re-entered
   std::vector<Vec3> shear;     ///< [column] shear displacement j under the body that touches it, m; contact/
   std::vector<float> area;     ///< [column] horizontal area it stands for, m^2
-  std::vector<float> added;    ///< [column] height of soil that landed here, less what was thrown out, m; settle/
+
+  // The books of each column, in m^3 at the density of undisturbed soil. What the surface sinks in all is what all
+  // columns were compacted by, since what one gains another gives.
+  std::vector<double> gained;     ///< [column] soil that came here, less what left; sums to 0; settle/
+  std::vector<double> compacted;  ///< [column] volume lost by getting denser, negative where looser; settle/
   std::size_t size() const { return vertex.size(); }
 
   /// Height at which the soil would stand had it never been pressed, m: sinkage z of Bekker's law counts from here.
   float fresh_height(std::uint32_t c) const { return rest[c].z + plastic[c]; }
-
-  /// Height lost to compaction, m: what is missing of the soil that is there.
-  float compacted(std::uint32_t c) const { return original[c].z + added[c] - rest[c].z; }
 };
 
 /// The column under a vertex, made on first touch. [O(valence) then, O(1) later]

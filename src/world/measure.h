@@ -17,8 +17,9 @@ float sinkage(const state::Surface& surface, const state::Soil& soil, std::uint3
 Crater crater(const state::Blast& blast, const state::Surface& surface, const state::Soil& soil,
               const geometry::Bvh& bvh, state::RegionScratch& scratch);
 
-/// Soil moved since the start. Displaced and deposited are integrals of sinkage over the surface's triangles, below and
-/// above zero; compacted is summed over the columns. [O(touched vertices)]
+/// Soil moved since the start. Displaced and deposited are integrals over the surface's triangles of how far it lies
+/// below and above the original ground; compacted is the sum of the columns' books, which know nothing of the original
+/// ground. [O(touched vertices)]
 SoilVolume soil_volume(const state::Surface& surface, const state::Soil& soil);
 
 }  // namespace divot::measure

@@ -181,7 +181,7 @@ void World::Impl::settle_ground() {
     const settle::Stillness stillness{
         static_cast<float>(speed), static_cast<float>(speed * scene.dt),
         static_cast<std::uint16_t>(std::clamp(std::ceil(kStillTime / scene.dt), 2.0, 60000.0))};
-    settle::update(particles, soil, surface, blasts, media, stillness, time() + scene.dt, moved);
+    settle::update(particles, soil, surface, blasts, media, stillness, time() + scene.dt, moved, settle_scratch);
     for (const std::uint32_t vertex : moved.vertices) dirty_chunk[vertex / kDirtyChunk] = true;
   });
 }

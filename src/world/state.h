@@ -52,6 +52,7 @@ struct World::Impl {
   neighbours::Index neighbours;
   contact::RigidBodies rigid;
   settle::Moved moved;
+  settle::Scratch settle_scratch;
   std::vector<std::uint32_t> wake;
   std::vector<events::Kick> kicks;
   std::vector<bool> dirty_chunk;  ///< [vertex / kDirtyChunk]
