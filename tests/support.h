@@ -15,6 +15,7 @@
 #include "divot/divot.h"
 #include "laws/medium.h"
 #include "neighbours/neighbours.h"
+#include "source_dir.h"
 #include "state/motion.h"
 #include "state/particles.h"
 #include "state/soil.h"
@@ -89,7 +90,7 @@ inline void bond(Sheet& s, float cutoff) {
 
 /// The paper's scene, section 4, as the repository has it.
 inline Scene paper_scene() {
-  const auto scene = load_scene(std::string(DIVOT_SOURCE_DIR) + "/scenes/paper.toml");
+  const auto scene = load_scene(std::string(source_dir()) + "/scenes/paper.toml");
   EXPECT_TRUE(scene.has_value());
   return *scene;
 }

@@ -19,6 +19,7 @@
 #include "output/json.h"
 #include "output/ply.h"
 #include "output/resample.h"
+#include "source_dir.h"
 #include "terrain/terrain.h"
 
 namespace divot {
@@ -286,7 +287,7 @@ TEST_F(Output, TerrainSurvivesARoundTrip) {
   for (const auto& [file, crs] :
        {std::pair{"volcano.asc", ""}, {"olinda_dem_utm25s.tif", ""}, {"jacksboro.asc", "EPSG:4326"}}) {
     Scene scene;
-    scene.folder = std::string(DIVOT_SOURCE_DIR) + "/scenes/dem";
+    scene.folder = std::string(test::source_dir()) + "/scenes/dem";
     scene.terrain.shape = DemTerrain{.path = file, .crs = crs, .band = 1};
     const auto before = terrain::load_terrain(scene);
     ASSERT_TRUE(before) << before.error().front().text();

@@ -11,6 +11,7 @@
 #include "divot/scene.h"
 #include "scene/keys.h"
 #include "scene/nearest.h"
+#include "source_dir.h"
 
 namespace divot {
 namespace {
@@ -106,7 +107,7 @@ std::string read_file(const std::filesystem::path& path) {
   return text.str();
 }
 
-std::string format_page() { return read_file(std::filesystem::path(DIVOT_SOURCE_DIR) / "docs/scene-format.md"); }
+std::string format_page() { return read_file(std::filesystem::path(test::source_dir()) / "docs/scene-format.md"); }
 
 TEST(Scene, ReadsEveryKey) {
   const Result<Scene> read = parse_scene(kFull, "folder/full.toml");
@@ -353,7 +354,7 @@ TEST(SceneErrors, OfFilesAreOneLine) {
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error()[0].text(),
             "no/such.toml: cannot be read: No such file or directory; expected a scene file");
-  EXPECT_EQ(load_scene(DIVOT_SOURCE_DIR).error()[0].problem, "is a folder");
+  EXPECT_EQ(load_scene(test::source_dir()).error()[0].problem, "is a folder");
 }
 
 TEST(SceneOverrides, ReachEveryPartOfAScene) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "source_dir.h"
 #include "world/state.h"
 
 namespace divot {
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = DIVOT_SOURCE_DIR;
+const fs::path kRoot = test::source_dir();
 const std::set<std::string> kStages(std::begin(kStageNames), std::end(kStageNames));
 // What every folder may include beside its own files.
 const std::set<std::string> kShared = {"core", "math", "geometry", "state", "laws", "divot"};

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "core/gdal.h"
+#include "source_dir.h"
 #include "terrain/height_field.h"
 #include "terrain/lattice.h"
 #include "terrain/terrain.h"
@@ -46,7 +47,7 @@ Scene grid_scene(int columns, int rows, double spacing) {
 
 Scene dem_scene(const std::string& path, const std::string& crs = {}, int band = 1) {
   Scene scene;
-  scene.folder = std::string(DIVOT_SOURCE_DIR) + "/scenes";
+  scene.folder = std::string(test::source_dir()) + "/scenes";
   scene.terrain.shape = DemTerrain{.path = path, .crs = crs, .band = band};
   return scene;
 }
@@ -287,7 +288,7 @@ void expect_pixels(const Surface& s, const Pixels& pixels, double west, double n
 
 TEST_F(Terrain, VolcanoIsTakenAsMetres) {
   const Surface s = load(dem_scene("dem/volcano.asc"));
-  expect_pixels(s, read(std::string(DIVOT_SOURCE_DIR) + "/scenes/dem/volcano.asc"), 0, 610, 10, 10);
+  expect_pixels(s, read(std::string(test::source_dir()) + "/scenes/dem/volcano.asc"), 0, 610, 10, 10);
   EXPECT_FLOAT_EQ(s.spacing, 10);
   EXPECT_EQ(s.raster->crs, "");
   EXPECT_EQ(s.origin.z, std::round(s.origin.z));
@@ -296,7 +297,7 @@ TEST_F(Terrain, VolcanoIsTakenAsMetres) {
 
 TEST_F(Terrain, OlindaKeepsItsUtmCoordinates) {
   const Surface s = load(dem_scene("dem/olinda_dem_utm25s.tif"));
-  const std::string file = std::string(DIVOT_SOURCE_DIR) + "/scenes/dem/olinda_dem_utm25s.tif";
+  const std::string file = std::string(test::source_dir()) + "/scenes/dem/olinda_dem_utm25s.tif";
   std::array<double, 6> t{};
   {
     const core::GdalSession session;
@@ -336,7 +337,7 @@ TEST_F(Terrain, JacksboroInDegreesBecomesMetres) {
   EXPECT_NEAR(s.raster->layout.columns * s.raster->dx, 30'000, 500);
 
   // The pixel in the middle of the file is in the middle of the terrain.
-  const Pixels pixels = read(std::string(DIVOT_SOURCE_DIR) + "/scenes/dem/jacksboro.asc");
+  const Pixels pixels = read(std::string(test::source_dir()) + "/scenes/dem/jacksboro.asc");
   const auto column = static_cast<std::uint32_t>(std::lround(-s.raster->x0 / s.raster->dx));
   const auto row = static_cast<std::uint32_t>(std::lround(-s.raster->y0 / s.raster->dy));
   EXPECT_NEAR(height(s, s.raster->layout.vertex(column, row)), pixels.value[172 * 403 + 201], 25);
@@ -460,7 +461,7 @@ TEST_F(Terrain, RefusesWhatIsNoRaster) {
 
 TEST_F(Terrain, FilesCutShortAreRefused) {
   for (const std::string name : {"olinda_dem_utm25s.tif", "volcano.asc"}) {
-    const fs::path whole = fs::path(DIVOT_SOURCE_DIR) / "scenes/dem" / name;
+    const fs::path whole = fs::path(test::source_dir()) / "scenes/dem" / name;
     const auto size = fs::file_size(whole);
     for (const double share : {0.0, 0.001, 0.1, 0.5, 0.9, 0.99}) {
       fs::copy_file(whole, path(name), fs::copy_options::overwrite_existing);

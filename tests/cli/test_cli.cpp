@@ -9,6 +9,7 @@
 #include "divot/material.h"
 #include "program.h"
 #include "scene/keys.h"
+#include "source_dir.h"
 
 namespace divot {
 namespace {
@@ -175,7 +176,7 @@ TEST_F(Cli, TextCalledTif) {
 }
 
 TEST_F(Cli, TruncatedTif) {
-  const std::string whole = read_text(fs::path(DIVOT_SOURCE_DIR) / "scenes/dem/olinda_dem_utm25s.tif");
+  const std::string whole = read_text(fs::path(test::source_dir()) / "scenes/dem/olinda_dem_utm25s.tif");
   ASSERT_FALSE(whole.empty());
   write("hill.tif", whole.substr(0, whole.size() / 2));
   write_changed("grid = { columns = 41, rows = 41, spacing = 0.5 }", "dem = \"hill.tif\"");

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "program.h"
+#include "source_dir.h"
 #include "validation/data.h"
 #include "validation/page.h"
 #include "validation/runner.h"
@@ -20,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-const fs::path kRoot = DIVOT_SOURCE_DIR;
+const fs::path kRoot = test::source_dir();
 const Places kPlaces{(kRoot / "scenes").string(), (kRoot / "validation/data").string()};
 
 // ---- judging
