@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "divot/divot.h"
+#include "forces/evaluate.h"
 #include "laws/medium.h"
 #include "neighbours/neighbours.h"
 #include "source_dir.h"
@@ -82,10 +83,19 @@ inline Sheet make_sheet(const GridTerrain& grid, const std::vector<Material>& ma
   return s;
 }
 
+/// Bonds yield, form and break as they do where a substep starts.
+inline void renew(state::Particles& p, state::Bonds& bonds, const state::Soil& soil,
+                  std::span<const laws::Medium> media, float cutoff, Cohesion cohesion = Cohesion::lennard_jones) {
+  forces::Scratch scratch;
+  const forces::Field field{soil, media, {}, cohesion, cutoff, {1e18f}};
+  forces::evaluate(p, bonds, {p.x, p.y, p.z, p.vx, p.vy, p.vz}, 0, field, forces::Renew::yes, scratch, Jobs(1));
+}
+
 /// Bonds between all that are within `cutoff` where they are, at rest as they are.
 inline void bond(Sheet& s, float cutoff) {
   const neighbours::Reach reach{cutoff, 0.2f * cutoff, Neighbours::grid, {}};
   neighbours::update(s.particles, s.bonds, s.index, reach, true, Jobs(1));
+  renew(s.particles, s.bonds, s.soil, s.media, cutoff);
 }
 
 /// The paper's scene, section 4, as the repository has it.

@@ -8,7 +8,7 @@ namespace {
 using test::Sheet;
 
 constexpr float kSpacing = 2, kCutoff = 1.75f * kSpacing;
-const laws::Resolution kFine{1e9f};
+const laws::Resolution kFine{1e18f};
 
 // Two soils that differ in everything pairs depend on; bare sheets have nothing but pairs.
 std::vector<Material> two_soils(bool bare) {
@@ -42,8 +42,9 @@ Sheet shaken_sheet(int size, bool bare, unsigned seed) {
 
 void evaluate_sheet(Sheet& s, Cohesion cohesion, int threads = 1, std::span<const state::Blast> blasts = {},
                     double time = 0) {
-  const Field field{s.bonds, s.soil, s.media, blasts, cohesion, kCutoff, kFine};
-  evaluate(s.particles, s.motion(), time, field, Jobs(threads));
+  const Field field{s.soil, s.media, blasts, cohesion, kCutoff, kFine};
+  Scratch scratch;
+  evaluate(s.particles, s.bonds, s.motion(), time, field, Renew::no, scratch, Jobs(threads));
 }
 
 Vec3d force_on(const Sheet& s, std::size_t i) {
@@ -105,7 +106,8 @@ Vec3d pair_sum(const Sheet& s, std::size_t i, Cohesion cohesion, const std::vect
     const double push = cohesion == Cohesion::lennard_jones
                             ? e0 * m * n / (n - m) * (std::pow(rest / r, n) - std::pow(rest / r, m)) / r
                             : soil.spring_stiffness * (rest - r);
-    const double t = std::min(1.0, (kCutoff - r) / (0.1 * kCutoff)), near = t * t * (3 - 2 * t);
+    const double t = std::min(1.0, (kCutoff * kCutoff - r * r) / (0.19 * kCutoff * kCutoff)),
+                 near = t * t * (3 - 2 * t);
     const Vec3d relative = to_double(p.velocity(j)) - to_double(p.velocity(i));
     sum += near * (push * (1 / r) * apart + soil.viscous_damping * relative);
   }
@@ -176,8 +178,9 @@ TEST(Forces, ABlastPushesItsColumnsWhileItsPulseLasts) {
 TEST(Forces, GroundThatFlowsHasDragAlone) {
   Sheet s = test::make_sheet({.columns = 5, .rows = 5, .spacing = kSpacing}, two_soils(false));
   test::bond(s, kCutoff);
-  s.bonds.rest_length.assign(s.bonds.rest_length.size(), 0);
-  s.particles.flow_rate[12] = 3;
+  s.particles.flow_rate.assign(s.particles.size(), 3);
+  test::renew(s.particles, s.bonds, s.soil, s.media, kCutoff);
+  for (const float r0 : s.bonds.rest_length) EXPECT_LE(r0, 0);
   s.particles.z[12] -= 1;
   s.particles.vz[12] = -2;
   evaluate_sheet(s, Cohesion::lennard_jones);
@@ -187,8 +190,9 @@ TEST(Forces, GroundThatFlowsHasDragAlone) {
 // Softened bonds and ground are softened alike for either side of a pair.
 TEST(Forces, SofteningKeepsTheSumOfPairsZero) {
   Sheet s = shaken_sheet(15, true, 8);
-  const Field field{s.bonds, s.soil, s.media, {}, Cohesion::lennard_jones, kCutoff, {2}};
-  evaluate(s.particles, s.motion(), 0, field, Jobs(1));
+  const Field field{s.soil, s.media, {}, Cohesion::lennard_jones, kCutoff, {2}};
+  Scratch scratch;
+  evaluate(s.particles, s.bonds, s.motion(), 0, field, Renew::no, scratch, Jobs(1));
   Vec3d sum;
   double size = 0;
   for (std::size_t i = 0; i < s.particles.size(); ++i) sum += force_on(s, i), size += length(force_on(s, i));
@@ -196,6 +200,67 @@ TEST(Forces, SofteningKeepsTheSumOfPairsZero) {
   Sheet full = shaken_sheet(15, true, 8);
   evaluate_sheet(full, Cohesion::lennard_jones);
   EXPECT_LT(length(force_on(s, 100)), length(force_on(full, 100)));
+}
+
+// ---- kernels
+
+// Everything a kernel reads, shaken at random: particles in any hold, some flowing, some far out of range, in one
+// medium or two, a number that does not fill the last block.
+struct Tangle {
+  Sheet s;
+  std::vector<Terms> terms;
+
+  Tangle(unsigned seed, bool mixed, double attraction, double repulsion, double bekker_n) {
+    std::vector<Material> soils = two_soils(false);
+    for (Material& soil : soils)
+      soil.attraction_exponent = attraction, soil.repulsion_exponent = repulsion, soil.bekker_n = bekker_n;
+    s = test::make_sheet({.columns = 37, .rows = 23, .spacing = kSpacing}, soils);
+    test::Random random(seed);
+    state::Particles& p = s.particles;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (mixed && i % 200 > 150) p.material[i] = 1;
+      p.flow_rate[i] = random.below(10) == 0 ? random.in(0.0f, 5.0f) : 0;
+      p.hold[i] = static_cast<Hold>(random.below(20) > 3 ? 0 : random.below(4));
+      s.soil.plastic[i] = random.below(2) == 0 ? random.in(0.0f, 0.3f) : 0;
+    }
+    test::bond(s, kCutoff);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const float far = random.below(8) == 0 ? kSpacing : 0.05f * kSpacing;
+      p.set_position(i, p.position(i) + Vec3{random.in(-far, far), random.in(-far, far), random.in(-far, far)});
+      p.set_velocity(i, {random.in(-1.0f, 1.0f), random.in(-1.0f, 1.0f), random.in(-1.0f, 1.0f)});
+    }
+  }
+};
+
+struct KernelResult {
+  std::vector<float> fx, fy, fz, pull, rest_length;
+  friend bool operator==(const KernelResult&, const KernelResult&) = default;
+};
+
+KernelResult run_kernel(Kernel* kernel, Tangle& t, Cohesion cohesion, float rate, Renew renew) {
+  Sheet& s = t.s;
+  Scratch scratch;
+  const Field field{s.soil, s.media, {}, cohesion, kCutoff, {rate}};
+  state::Bonds bonds = s.bonds;
+  evaluate(s.particles, bonds, s.motion(), 0, field, renew, scratch, Jobs(1), kernel);
+  return {s.particles.fx, s.particles.fy, s.particles.fz, s.particles.held_pull, bonds.rest_length};
+}
+
+TEST(ForcesKernel, AllGiveTheBitsOfThePlainOne) {
+  std::vector<Kernel*> kernels = {&baseline};
+  if (fastest() != &baseline) kernels.push_back(fastest());
+  unsigned seed = 30;
+  for (const bool mixed : {false, true})
+    for (const auto& [m, n, bekker_n] : {std::tuple{2.0, 4.0, 1.0}, {6.0, 12.0, 1.1}, {2.0, 3.0, 0.5}})
+      for (const Cohesion cohesion : {Cohesion::lennard_jones, Cohesion::mass_spring})
+        for (const float rate : {1e18f, 2.0f})
+          for (const Renew renew : {Renew::no, Renew::yes}) {
+            Tangle tangle(++seed, mixed, m, n, bekker_n);
+            const KernelResult expected = run_kernel(&plain, tangle, cohesion, rate, renew);
+            EXPECT_EQ(renew == Renew::yes, expected.rest_length != tangle.s.bonds.rest_length);
+            for (Kernel* kernel : kernels)
+              EXPECT_EQ(run_kernel(kernel, tangle, cohesion, rate, renew), expected) << seed;
+          }
 }
 
 // ---- yield
@@ -209,10 +274,12 @@ float rest_length_after(double strain) {
   s.particles.hold.assign(9, Hold::anchor);
   const float right = s.particles.x[5];
   s.particles.x[5] = right + static_cast<float>(strain) * kSpacing;
-  yield(s.particles, s.bonds, s.soil, s.media, kFine, Jobs(1));
-  for (std::uint32_t e = s.bonds.start[4]; e < s.bonds.start[5]; ++e)
-    if (s.bonds.neighbour[e] == 5) return s.bonds.rest_length[e];
-  return 0;
+  test::renew(s.particles, s.bonds, s.soil, s.media, 1.2f * kSpacing);
+  float length = 0;
+  s.bonds.for_each_entry(4, [&](std::size_t e) {
+    if (s.bonds.neighbour[e] == 5) length = s.bonds.rest_length[e];
+  });
+  return length;
 }
 
 TEST(ForcesYield, BondsKeepTheirLengthUpToTheYieldStrainAndFollowBeyond) {
@@ -228,7 +295,7 @@ state::Soil ground_after(const Vec3& moved, const Material& soil) {
   Sheet s = test::make_sheet({.columns = 3, .rows = 3, .spacing = kSpacing}, {soil});
   test::bond(s, kCutoff);
   s.particles.set_position(4, s.particles.position(4) + moved);
-  yield(s.particles, s.bonds, s.soil, s.media, kFine, Jobs(1));
+  yield(s.particles, s.soil, s.media, kFine, Jobs(1));
   return s.soil;
 }
 

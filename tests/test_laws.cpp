@@ -174,9 +174,9 @@ TEST(LawsLennardJones, StiffnessDoesNotDependOnTheRestLength) {
 TEST(LawsMassSpring, IsHookes) {
   Medium s;
   s.spring_stiffness = 20;
-  EXPECT_EQ(mass_spring(s, 2, 2), 0);
-  EXPECT_FLOAT_EQ(3 * mass_spring(s, 3, 2), -20);  // stretched by 1 m: pulls
-  EXPECT_FLOAT_EQ(1 * mass_spring(s, 1, 2), 20);
+  EXPECT_EQ(mass_spring(s, 2.0f, 2.0f), 0);
+  EXPECT_FLOAT_EQ(3 * mass_spring(s, 3.0f, 2.0f), -20);  // stretched by 1 m: pulls
+  EXPECT_FLOAT_EQ(1 * mass_spring(s, 1.0f, 2.0f), 20);
 }
 
 TEST(LawsDamping, OpposesMotion) {

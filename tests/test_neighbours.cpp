@@ -11,6 +11,9 @@ constexpr float kCutoff = 1.75f, kSkin = 0.4f;
 
 using PairKey = std::pair<std::uint32_t, std::uint32_t>;  // vertices, lower first
 
+// Soil that never yields: bonds keep the length at which they formed.
+const std::vector<laws::Medium> kMedia = {{.yield_strain = 1e30f}};
+
 // A cloud in which everything moves: each particle by itself and all of it to one side.
 class Cloud {
  public:
@@ -73,17 +76,20 @@ void follow(const state::Particles& p, std::map<PairKey, float>& bonds) {
 std::map<PairKey, float> bonds_of(const state::Particles& p, const state::Bonds& bonds) {
   std::map<PairKey, float> found;
   for (std::uint32_t i = 0; i < p.size(); ++i)
-    for (std::uint32_t e = bonds.start[i]; e < bonds.start[i + 1]; ++e)
+    bonds.for_each_entry(i, [&](std::size_t e) {
       if (bonds.rest_length[e] > 0 && i < bonds.neighbour[e])
         found[{p.vertex[i], p.vertex[bonds.neighbour[e]]}] = bonds.rest_length[e];
+    });
   return found;
 }
 
 // Ascending, without the particle itself, and every pair in range is there.
 void expect_rows_hold_all_in_range(const state::Particles& p, const state::Bonds& bonds) {
-  ASSERT_EQ(bonds.start.size(), p.size() + 1);
+  ASSERT_EQ(bonds.count, p.size());
   for (std::uint32_t i = 0; i < p.size(); ++i) {
-    const auto begin = bonds.neighbour.begin() + bonds.start[i], end = bonds.neighbour.begin() + bonds.start[i + 1];
+    std::vector<std::uint32_t> row;
+    bonds.for_each_entry(i, [&](std::size_t e) { row.push_back(bonds.neighbour[e]); });
+    const auto begin = row.begin(), end = row.end();
     ASSERT_TRUE(std::is_sorted(begin, end));
     ASSERT_FALSE(std::binary_search(begin, end, i));
     for (std::uint32_t j = 0; j < p.size(); ++j) {
@@ -91,6 +97,14 @@ void expect_rows_hold_all_in_range(const state::Particles& p, const state::Bonds
       ASSERT_TRUE(!in_range || std::binary_search(begin, end, j)) << i << ' ' << j;
     }
   }
+}
+
+// Rows up to date, then bonds, as a substep starts.
+void follow_bonds(state::Particles& p, state::Bonds& bonds, Index& index, const Reach& reach, bool changed,
+                  int threads = 1) {
+  update(p, bonds, index, reach, changed, Jobs(threads));
+  const state::Soil soil{.rest = std::vector<Vec3>(1), .plastic = {0}, .area = {1}};
+  test::renew(p, bonds, soil, kMedia, reach.cutoff);
 }
 
 struct Counts {
@@ -103,12 +117,11 @@ Counts follow_cloud(const Reach& reach, float most, bool changes) {
   state::Bonds bonds;
   Index index;
   std::map<PairKey, float> expected;
-  const Jobs jobs(1);
   for (int step = 0; step < 200; ++step) {
     cloud.move(most, {0.5f, -0.3f, 0.1f});
     const bool changed = step == 0 || (changes && step % 17 == 0);
     if (changed && step > 0) cloud.change_set();
-    update(cloud.p, bonds, index, reach, changed, jobs);
+    follow_bonds(cloud.p, bonds, index, reach, changed);
     follow(cloud.p, expected);
     expect_rows_hold_all_in_range(cloud.p, bonds);
     EXPECT_EQ(bonds_of(cloud.p, bonds), expected) << "step " << step;
@@ -174,9 +187,9 @@ TEST(Neighbours, GridAndKdTreeGiveTheSameBonds) {
     cloud.move(0.1f, {});
     if (step == 10) cloud.change_set();
     const bool changed = step == 0 || step == 10;
-    update(cloud.p, by_grid, grid_index, {kCutoff, kSkin, Neighbours::grid, {}}, changed, Jobs(1));
-    update(cloud.p, by_tree, tree_index, {kCutoff, kSkin, Neighbours::kd_tree, {}}, changed, Jobs(3));
-    ASSERT_EQ(by_grid.start, by_tree.start);
+    follow_bonds(cloud.p, by_grid, grid_index, {kCutoff, kSkin, Neighbours::grid, {}}, changed);
+    follow_bonds(cloud.p, by_tree, tree_index, {kCutoff, kSkin, Neighbours::kd_tree, {}}, changed, 3);
+    ASSERT_EQ(by_grid.first, by_tree.first);
     ASSERT_EQ(by_grid.neighbour, by_tree.neighbour);
     ASSERT_EQ(by_grid.rest_length, by_tree.rest_length);
   }
@@ -186,11 +199,10 @@ TEST(Neighbours, BondsAreTheSameSeenFromEitherSide) {
   Cloud cloud(300, 10, 16);
   state::Bonds bonds;
   Index index;
-  update(cloud.p, bonds, index, {kCutoff, kSkin, Neighbours::grid, {}}, true, Jobs(1));
+  follow_bonds(cloud.p, bonds, index, {kCutoff, kSkin, Neighbours::grid, {}}, true);
   std::map<PairKey, float> ends;
   for (std::uint32_t i = 0; i < cloud.p.size(); ++i)
-    for (std::uint32_t e = bonds.start[i]; e < bonds.start[i + 1]; ++e)
-      ends[{i, bonds.neighbour[e]}] = bonds.rest_length[e];
+    bonds.for_each_entry(i, [&](std::size_t e) { ends[{i, bonds.neighbour[e]}] = bonds.rest_length[e]; });
   for (const auto& [pair, length] : ends) ASSERT_EQ(length, (ends.at({pair.second, pair.first})));
 }
 
@@ -199,15 +211,51 @@ TEST(Neighbours, SoilThatFlowsHasNoBondsUntilItRests) {
   state::Bonds bonds;
   Index index;
   const Reach reach{kCutoff, kSkin, Neighbours::grid, {}};
-  update(cloud.p, bonds, index, reach, true, Jobs(1));
+  follow_bonds(cloud.p, bonds, index, reach, true);
   const auto before = bonds_of(cloud.p, bonds);
   cloud.p.flow_rate[50] = 1;
-  update(cloud.p, bonds, index, reach, false, Jobs(1));
-  for (std::uint32_t e = bonds.start[50]; e < bonds.start[51]; ++e) EXPECT_EQ(bonds.rest_length[e], 0);
+  follow_bonds(cloud.p, bonds, index, reach, false);
+  bonds.for_each_entry(50, [&](std::size_t e) { EXPECT_EQ(bonds.rest_length[e], 0); });
   EXPECT_LT(bonds_of(cloud.p, bonds).size(), before.size());
   cloud.p.flow_rate[50] = 0;
-  update(cloud.p, bonds, index, reach, false, Jobs(1));
+  follow_bonds(cloud.p, bonds, index, reach, false);
   EXPECT_EQ(bonds_of(cloud.p, bonds), before);
+}
+
+// On a grid a slot's neighbours follow each other, and the layout says so.
+TEST(NeighboursBlocks, RunsOfAGridAreFound) {
+  test::Sheet s = test::make_sheet({.columns = 64, .rows = 64, .spacing = 1});
+  update(s.particles, s.bonds, s.index, {1.6f, 0.1f, Neighbours::grid, {}}, true, Jobs(2));
+  std::size_t runs = 0;
+  for (std::size_t slot = 0; slot < s.bonds.run.size(); ++slot) {
+    const std::uint32_t run = s.bonds.run[slot];
+    if (run == kNone) continue;
+    ++runs;
+    ASSERT_LE(run + state::Bonds::kLanes, s.particles.size());
+    for (std::uint32_t lane = 0; lane < state::Bonds::kLanes; ++lane) {
+      const std::size_t e = slot * state::Bonds::kLanes + lane;
+      if (s.bonds.rest_length[e] >= 0) {
+        ASSERT_EQ(s.bonds.neighbour[e], run + lane);
+      }
+    }
+  }
+  EXPECT_GT(runs, s.bonds.run.size() * 9 / 10);
+  EXPECT_LT(s.bonds.run.size(), 10.5 * 64 * 64 / state::Bonds::kLanes);
+}
+
+// Several media in a block are seen.
+TEST(NeighboursBlocks, KnowTheirMedium) {
+  test::Sheet s = test::make_sheet({.columns = 64, .rows = 32, .spacing = 1}, {Material{}, Material{}});
+  s.particles.material[700] = 1;
+  update(s.particles, s.bonds, s.index, {1.6f, 0.1f, Neighbours::grid, {}}, true, Jobs(1));
+  for (std::size_t block = 0; block < s.bonds.block_count(); ++block) {
+    bool near = false;
+    for (std::size_t i = 8 * block; i < 8 * block + 8; ++i) {
+      near |= i == 700;
+      s.bonds.for_each_entry(i, [&](std::size_t e) { near |= s.bonds.neighbour[e] == 700; });
+    }
+    EXPECT_EQ(s.bonds.medium[block], near ? state::Bonds::kSeveral : 0) << block;
+  }
 }
 
 TEST(Neighbours, NoParticlesAreNoTrouble) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "laws/medium.h"
+#include "math/real.h"
 
 namespace divot::laws {
 
@@ -14,7 +15,7 @@ template <class Real>
 Real bekker_pressure(const Medium& s, Real z, Real b) {
   if (z <= 0) return 0;
   const Real k = (s.bekker_kc != 0 ? s.bekker_kc / b : Real(0)) + s.bekker_kphi;
-  return k * (s.bekker_n == 1 ? z : std::pow(z, Real(s.bekker_n)));
+  return k * (s.bekker_n == 1 ? z : math::to_the_power(z, Real(s.bekker_n)));
 }
 
 /// Pressure and its slope against sinkage.
@@ -46,7 +47,7 @@ Real shear_strength(const Medium& s, Real p) {
 /// Share of the strength that shear displacement j mobilises. [Janosi & Hanamoto 1961]
 template <class Real>
 Real mobilised_shear(const Medium& s, Real j) {
-  return 1 - std::exp(-j / Real(s.shear_modulus));
+  return Real(1) - math::exponential(-j / Real(s.shear_modulus));
 }
 
 /// Beyond this many K of shear displacement the soil slides: 95 % of the strength is mobilised there.

@@ -22,21 +22,42 @@ inline float held_stiffness(const Medium& s, const Resolution& resolution) {
   return std::min(s.elastic_stiffness, resolution.stiffness_limit() * s.areal_mass);
 }
 
-/// Traction of the ground on a free particle, Pa: displacement from where its column is at rest, velocity, permanent
-/// sinkage. Pressed, it answers by Bekker; pulled, it holds by cohesion; pushed sideways, by Janosi's shear.
+/// Damping of the ground that a free particle feels, Pa s/m.
+inline float held_damping(const Medium& s, const Resolution& resolution) {
+  return std::min(s.ground_damping, resolution.damping_limit() * s.areal_mass);
+}
+
+template <class Real>
+struct Traction {
+  Real x, y, z;  ///< Pa
+};
+
+/// Traction of the ground on a free particle: displacement dx, dy, dz from where its column is at rest, velocity,
+/// permanent sinkage; `stiffness` and `damping` are held_stiffness() and held_damping(). Pressed, it answers by Bekker;
+/// pulled, it holds by cohesion; pushed sideways, by Janosi's shear.
+template <class Real>
+Traction<Real> ground_traction(const Medium& s, float stiffness, float damping, Real dx, Real dy, Real dz, Real vx,
+                               Real vy, Real vz, Real plastic) {
+  using math::greatest, math::least, math::root, math::select, math::to_the_power;
+  const Real zero = Real(0.0f), sunk = -dz, elastic = Real(stiffness) * sunk;
+
+  // A free particle's patch has no edge: b is infinite. Where z is not above 0 nothing pushes, though it is pressed.
+  const Real z = greatest(plastic + sunk, zero);
+  const Real virgin = Real(s.bekker_kphi) * (s.bekker_n == 1 ? z : to_the_power(z, s.bekker_n));
+  const Real normal = select(sunk > zero, least(elastic, virgin), greatest(elastic, Real(-s.cohesion)));
+
+  const Real j = root(dx * dx + dy * dy);
+  const Real strength = Real(s.cohesion) + greatest(normal, zero) * Real(s.tan_friction);
+  const Real shear = select(j > zero, least(strength * mobilised_shear(s, j) / j, Real(stiffness)), zero);
+  return {-shear * dx - Real(damping) * vx, -shear * dy - Real(damping) * vy, normal - Real(damping) * vz};
+}
+
 inline Vec3 ground_traction(const Medium& s, const Vec3& from_rest, const Vec3& velocity, float plastic,
                             const Resolution& resolution) {
-  const float stiffness = held_stiffness(s, resolution);
-  constexpr float kWide = std::numeric_limits<float>::infinity();
-  const float sunk = -from_rest.z;
-  const float normal = sunk > 0 ? ground_pressure(s, plastic + sunk, plastic, kWide, stiffness).value
-                                : -std::min(stiffness * -sunk, s.cohesion);
-
-  const float j = std::sqrt(from_rest.x * from_rest.x + from_rest.y * from_rest.y);
-  const float strength = shear_strength(s, std::max(normal, 0.0f));
-  const float shear = j > 0 ? std::min(strength * mobilised_shear(s, j) / j, stiffness) : 0;
-  const float damping = std::min(s.ground_damping, resolution.damping_limit() * s.areal_mass);
-  return Vec3{-shear * from_rest.x, -shear * from_rest.y, normal} - damping * velocity;
+  const Traction<float> t =
+      ground_traction<float>(s, held_stiffness(s, resolution), held_damping(s, resolution), from_rest.x, from_rest.y,
+                             from_rest.z, velocity.x, velocity.y, velocity.z, plastic);
+  return {t.x, t.y, t.z};
 }
 
 }  // namespace divot::laws

@@ -3,13 +3,15 @@
 #include <cmath>
 
 #include "laws/medium.h"
+#include "math/real.h"
 
 namespace divot::laws {
 
 /// q^k for a small whole k > 0.
-inline float power(float q, int k) {
-  float p = q;
-  for (int i = 1; i < k; ++i) p *= q;
+template <class Real>
+Real power(Real q, int k) {
+  Real p = q;
+  for (int i = 1; i < k; ++i) p = p * q;
   return p;
 }
 
@@ -21,14 +23,16 @@ inline float lennard_jones_potential(const Medium& s, float r, float r0) {
 
 /// Force of eq. 6 over distance, N/m: times (x_i - x_j) it is the force on i, -grad Phi. Zero at r0, positive
 /// (repulsive) below.
-inline float lennard_jones(const Medium& s, float r_squared, float r0) {
-  const float r0_squared = r0 * r0, q = r0_squared / r_squared;
-  const float m = s.attraction, n = s.repulsion;
-  // -dPhi/dr / r = e0 m n / (n - m) [ (r0/r)^n - (r0/r)^m ] / r^2. For even m and n the powers of (r0/r)^2 need no
-  // root.
-  const float repel = s.half_repulsion ? power(q, s.half_repulsion) : std::pow(q, n / 2);
-  const float attract = s.half_attraction ? power(q, s.half_attraction) : std::pow(q, m / 2);
-  return s.bond_energy * r0_squared * (m * n / (n - m)) * (repel - attract) / r_squared;
+template <class Real>
+Real lennard_jones(const Medium& s, Real r_squared, Real r0) {
+  using math::to_the_power;
+  // -dPhi/dr / r = e0 m n / (n - m) [ (r0/r)^n - (r0/r)^m ] / r^2 with e0 = bond_energy r0^2. For even m and n the
+  // powers of q = (r0/r)^2 need neither a root nor a power function.
+  const Real q = r0 * r0 / r_squared;
+  const Real repel = s.half_repulsion ? power(q, s.half_repulsion) : to_the_power(q, s.repulsion * 0.5f);
+  const Real attract = s.half_attraction ? power(q, s.half_attraction) : to_the_power(q, s.attraction * 0.5f);
+  const float e = s.bond_energy * (s.attraction * s.repulsion / (s.repulsion - s.attraction));
+  return Real(e) * q * (repel - attract);
 }
 
 }  // namespace divot::laws

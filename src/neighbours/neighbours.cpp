@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 
 #include "math/aabb.h"
+#include "neighbours/blocks.h"
 
 namespace divot::neighbours {
 namespace {
@@ -44,28 +46,54 @@ std::size_t old_row_of(const Index& index, std::uint32_t vertex) {
   return is_there ? static_cast<std::size_t>(found - index.old_vertex.begin()) : index.old_vertex.size();
 }
 
+// Entries of one row of bonds, ascending.
+class Row {
+ public:
+  Row(const state::Bonds& bonds, std::size_t i)
+      : bonds_(bonds),
+        entry_(std::size_t{bonds.first[i / kLanes]} * kLanes + i % kLanes),
+        end_(std::size_t{bonds.first[i / kLanes + 1]} * kLanes) {
+    skip();
+  }
+  bool is_over() const { return entry_ >= end_; }
+  std::size_t entry() const { return entry_; }
+  std::uint32_t neighbour() const { return bonds_.neighbour[entry_]; }
+  void advance() { entry_ += kLanes, skip(); }
+
+ private:
+  static constexpr std::size_t kLanes = state::Bonds::kLanes;
+  void skip() {
+    while (entry_ < end_ && bonds_.rest_length[entry_] < 0) entry_ += kLanes;
+  }
+  const state::Bonds& bonds_;
+  std::size_t entry_, end_;
+};
+
 // Rest lengths move from the old rows to the new ones, found by vertex: both ascend. Returns how many pairs are in
 // range now that the old rows should have held and did not, each counted once.
 std::uint64_t carry_rest_lengths(const state::Particles& p, const Index& index, state::Bonds& bonds, float cutoff,
                                  const Jobs& jobs) {
   std::atomic<std::uint64_t> missed = 0;
   const bool same_rows = index.vertex == index.old_vertex;
-  jobs.for_ranges(p.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  const auto carry = [&](std::size_t begin, std::size_t end) {
+    std::uint64_t missed_here = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t old_row = same_rows ? i : old_row_of(index, index.vertex[i]);
       if (old_row == index.old_vertex.size()) continue;
-      std::uint32_t old = index.old_bonds.start[old_row];
-      const std::uint32_t old_end = index.old_bonds.start[old_row + 1];
-      for (std::uint32_t e = bonds.start[i]; e < bonds.start[i + 1]; ++e) {
-        const std::uint32_t j = bonds.neighbour[e], wanted = index.vertex[j];
-        while (old < old_end && index.old_vertex[index.old_bonds.neighbour[old]] < wanted) ++old;
-        if (old < old_end && index.old_vertex[index.old_bonds.neighbour[old]] == wanted)
-          bonds.rest_length[e] = index.old_bonds.rest_length[old];
+      const auto old_vertex = [&](const Row& row) { return index.old_vertex[row.neighbour()]; };
+      Row old(index.old_bonds, old_row);
+      for (Row now(bonds, i); !now.is_over(); now.advance()) {
+        const std::uint32_t j = now.neighbour(), wanted = index.vertex[j];
+        while (!old.is_over() && old_vertex(old) < wanted) old.advance();
+        if (!old.is_over() && old_vertex(old) == wanted)
+          bonds.rest_length[now.entry()] = index.old_bonds.rest_length[old.entry()];
         else if (i < j && distance_squared(p, i, j) < cutoff * cutoff)
-          missed += same_rows || old_row_of(index, wanted) < index.old_vertex.size();
+          missed_here += same_rows || old_row_of(index, wanted) < index.old_vertex.size();
       }
     }
-  });
+    missed += missed_here;
+  };
+  jobs.for_ranges(p.size(), kGrain, std::ref(carry));
   return missed;
 }
 
@@ -74,7 +102,6 @@ void rebuild(const state::Particles& p, state::Bonds& bonds, Index& index, const
   const float radius = reach.cutoff + (skinned ? reach.skin : 0);
   std::swap(index.old_vertex, index.vertex);
   std::swap(index.old_bonds, bonds);
-  if (index.old_bonds.start.empty()) index.old_bonds.start.push_back(0);
   index.vertex = p.vertex;
   index.x = p.x, index.y = p.y, index.z = p.z;
   if (reach.structure == Neighbours::kd_tree) {
@@ -84,31 +111,12 @@ void rebuild(const state::Particles& p, state::Bonds& bonds, Index& index, const
     index.grid.build(p.x, p.y, p.z);
     index.grid.rows(radius, index.rows, jobs);
   }
-  bonds.start = index.rows.start;
-  bonds.neighbour = index.rows.index;
-  bonds.rest_length.assign(bonds.neighbour.size(), 0);
+  make_blocks(index.rows, p.material, index.slots, bonds, jobs);
   // Rows a single step old can miss nothing that matters: a pair bonds in the step in which it comes into range.
   const std::uint64_t missed = carry_rest_lengths(p, index, bonds, reach.cutoff, jobs);
   if (index.steps_since_build > 1) index.missed_pairs += missed;
   index.steps_since_build = 0;
   ++index.rebuilds;
-}
-
-void form_and_break(const state::Particles& p, state::Bonds& bonds, float cutoff, const Jobs& jobs) {
-  jobs.for_ranges(p.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (p.hold[i] == Hold::anchor) continue;  // nobody asks what an anchor feels
-      for (std::uint32_t e = bonds.start[i]; e < bonds.start[i + 1]; ++e) {
-        const std::uint32_t j = bonds.neighbour[e];
-        const float r_squared = distance_squared(p, i, j);
-        // Soil that flows holds together no more; it bonds anew, in its new shape, when it has come to rest.
-        if (r_squared >= cutoff * cutoff || p.flow_rate[i] > 0 || p.flow_rate[j] > 0)
-          bonds.rest_length[e] = 0;
-        else if (bonds.rest_length[e] == 0)
-          bonds.rest_length[e] = std::sqrt(r_squared);
-      }
-    }
-  });
 }
 
 }  // namespace
@@ -117,7 +125,6 @@ void update(const state::Particles& particles, state::Bonds& bonds, Index& index
             bool particles_changed, const Jobs& jobs) {
   ++index.steps_since_build;
   if (is_due(particles, index, reach, particles_changed)) rebuild(particles, bonds, index, reach, jobs);
-  form_and_break(particles, bonds, reach.cutoff, jobs);
 }
 
 }  // namespace divot::neighbours

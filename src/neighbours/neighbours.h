@@ -10,9 +10,9 @@
 #include "geometry/rows.h"
 #include "state/particles.h"
 
-// stage     neighbours: rows of neighbours, and bonds that form and break
+// stage     neighbours: rows of neighbours
 // reads     position
-// writes    bonds
+// writes    bonds: who could have one, and the rest lengths of those who have
 // parallel  over particles
 // sums      none; rows ascend by particle
 namespace divot::neighbours {
@@ -34,12 +34,13 @@ struct Index {
   std::vector<std::uint32_t> vertex;      ///< [particle] of the rows, ascending
   std::vector<std::uint32_t> old_vertex;  ///< the same of the rows before
   state::Bonds old_bonds;
+  std::vector<std::uint32_t> slots;  ///< [block] scratch
   std::uint64_t steps_since_build = 0;
   std::uint64_t rebuilds = 0, missed_pairs = 0;
 };
 
-/// Brings the rows up to date as the policy says (always when the set of particles changed), then lets bonds form
-/// between pairs that came into range, at rest as they are, and break where a pair left it.
+/// Brings the rows up to date as the policy says, and always when the set of particles changed. Rest lengths follow
+/// their vertices; pairs that are new to the rows have 0: they bond when forces/ next renews bonds.
 void update(const state::Particles& particles, state::Bonds& bonds, Index& index, const Reach& reach,
             bool particles_changed, const Jobs& jobs);
 

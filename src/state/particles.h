@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "divot/ids.h"
 #include "divot/vec.h"
 #include "divot/views.h"
 
@@ -38,11 +40,27 @@ struct Particles {
   }
 };
 
-/// Cohesion between particles: rows of neighbours and, for each, the length at which it is at rest.
+/// Cohesion between particles: rows of neighbours and, for each, the length at which it is at rest. Eight rows that
+/// follow each other are a block; it lies in memory slot by slot, a slot holding one neighbour of each of the eight.
+/// Neighbours of a row ascend from slot to slot.
 struct Bonds {
-  std::vector<std::uint32_t> start;      ///< [particle + 1] first entry of each row; neighbours/
-  std::vector<std::uint32_t> neighbour;  ///< [entry] particle, ascending within a row; neighbours/
-  std::vector<float> rest_length;  ///< [entry] m, 0 while the two are out of range; neighbours/, then yields in forces/
+  static constexpr std::uint32_t kLanes = 8;
+  static constexpr std::uint8_t kSeveral = 0xff;
+
+  std::size_t count = 0;                 ///< particles; neighbours/, as are the next four
+  std::vector<std::uint32_t> first;      ///< [block + 1] its first slot
+  std::vector<std::uint32_t> neighbour;  ///< [slot][lane] particle; that of the lane itself where it has none
+  std::vector<std::uint32_t> run;    ///< [slot] the neighbour of lane 0 where lane k has the k-th after it, else kNone
+  std::vector<std::uint8_t> medium;  ///< [block] that all particles and neighbours have in common, or kSeveral
+  std::vector<float> rest_length;    ///< [slot][lane] m, 0 while the two are out of range, -1: no pair; forces/
+
+  std::size_t block_count() const { return first.empty() ? 0 : first.size() - 1; }
+  /// Calls f(entry) for each neighbour of particle i, ascending: an index of `neighbour` and `rest_length`.
+  template <class F>
+  void for_each_entry(std::size_t i, F f) const {
+    for (std::size_t slot = first[i / kLanes]; slot < first[i / kLanes + 1]; ++slot)
+      if (const std::size_t entry = slot * kLanes + i % kLanes; !(rest_length[entry] < 0)) f(entry);
+  }
 };
 
 }  // namespace divot::state

@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
-#include "events/events.h"
-#include "forces/evaluate.h"
 #include "world/state.h"
 
 namespace divot {
@@ -144,23 +143,23 @@ void World::Impl::move_particles(bool particles_changed, StepReport& report) {
   const Substeps plan = plan_substeps(particles, media, blasts, time(), scene.dt);
   report.substeps = plan.count;
   report.substeps_limited = plan.limited;
-  const forces::Field field{bonds,
-                            soil,
-                            media,
-                            blasts,
-                            scene.solver.cohesion,
-                            static_cast<float>(scene.solver.cutoff) * surface.spacing,
-                            plan.resolution};
-  const integration::Forces evaluate = [&](const state::MotionView& motion, double at) {
-    timed(Stage::forces, [&] { forces::evaluate(particles, motion, at, field, *jobs); });
+  const forces::Field field{
+      soil,           media, blasts, scene.solver.cohesion, static_cast<float>(scene.solver.cutoff) * surface.spacing,
+      plan.resolution};
+  forces::Renew renew = forces::Renew::no;
+  const auto forces_at = [&](const state::MotionView& motion, double at) {
+    timed(Stage::forces, [&] { forces::evaluate(particles, bonds, motion, at, field, renew, forces_scratch, *jobs); });
+    renew = forces::Renew::no;
     return integration::ForceView{particles.fx, particles.fy, particles.fz};
   };
+  const integration::Forces evaluate = std::ref(forces_at);  // a copy would be an allocation
   state::Particles& p = particles;
   const state::MotionView motion{p.x, p.y, p.z, p.vx, p.vy, p.vz};
   const double h = scene.dt / plan.count;
   for (int k = 0; k < plan.count; ++k) {
     const double at = time() + k * h;
     find_neighbours(particles_changed && k == 0);
+    renew = forces::Renew::yes;
     const bool blast_acts = std::any_of(blasts.begin(), blasts.end(), [](const state::Blast& b) { return b.active; });
     const bool rk4 =
         scene.solver.integrator == Integrator::rk4 || (scene.solver.integrator == Integrator::automatic && blast_acts);
@@ -170,7 +169,7 @@ void World::Impl::move_particles(bool particles_changed, StepReport& report) {
       else
         integration::euler(motion, p.mass, at, h, evaluate, *jobs);
     });
-    timed(Stage::forces, [&] { forces::yield(p, bonds, soil, media, plan.resolution, *jobs); });
+    timed(Stage::forces, [&] { forces::yield(p, soil, media, plan.resolution, *jobs); });
   }
   report.not_finite |= rescue(p, surface);
 }

@@ -8,6 +8,7 @@
 #include "core/timers.h"
 #include "divot/world.h"
 #include "events/events.h"
+#include "forces/evaluate.h"
 #include "integration/integrators.h"
 #include "laws/medium.h"
 #include "neighbours/neighbours.h"
@@ -59,6 +60,7 @@ struct World::Impl {
 
   activation::Scratch activation_scratch;
   contact::Scratch contact_scratch;
+  forces::Scratch forces_scratch;
   integration::Scratch integration_scratch;
   mutable state::RegionScratch region_scratch;
 
