@@ -14,10 +14,10 @@
 #include "core/gdal.h"
 #include "output/atomic_file.h"
 #include "output/csv.h"
-#include "output/geotiff.h"
 #include "output/heading.h"
 #include "output/json.h"
 #include "output/ply.h"
+#include "output/raster_file.h"
 #include "output/resample.h"
 #include "source_dir.h"
 #include "terrain/terrain.h"
@@ -66,6 +66,10 @@ SurfaceView view(const Surface& s) {
           .triangles = s.mesh.triangles(),
           .materials = s.material,
           .spacing = s.spacing};
+}
+
+Result<void> write_heights(const std::string& path, const RasterView& raster) {
+  return output::write_geotiff(path, raster, raster.heights);
 }
 
 // --- files that appear whole or not at all ---
@@ -246,7 +250,7 @@ TEST_F(Output, GeotiffReadsBackInPlaceWithItsHoles) {
   r.crs = wkt;
   CPLFree(wkt);
   for (int k = 0; k < 15; ++k) r.heights.push_back(static_cast<float>(k) + 0.25f), r.holes.push_back(k == 7);
-  const auto written = output::write_geotiff(path("t.tif"), r);
+  const auto written = write_heights(path("t.tif"), r);
   ASSERT_TRUE(written) << written.error().front().text();
   EXPECT_EQ(file_count(), 1u);
 
@@ -276,7 +280,7 @@ TEST_F(Output, GeotiffIsOneFileWhateverTheCoordinateSystem) {
     reference.exportToWkt(&wkt);
     r.crs = wkt;
     CPLFree(wkt);
-    const auto written = output::write_geotiff(path("t.tif"), r);
+    const auto written = write_heights(path("t.tif"), r);
     EXPECT_TRUE(written) << written.error().front().text();
     EXPECT_EQ(file_count(), 1u) << crs;
   }
@@ -291,7 +295,7 @@ TEST_F(Output, TerrainSurvivesARoundTrip) {
     scene.terrain.shape = DemTerrain{.path = file, .crs = crs, .band = 1};
     const auto before = terrain::load_terrain(scene);
     ASSERT_TRUE(before) << before.error().front().text();
-    ASSERT_TRUE(output::write_geotiff(path("again.tif"), output::resample(*before)));
+    ASSERT_TRUE(write_heights(path("again.tif"), output::resample(*before)));
     EXPECT_EQ(file_count(), 1u) << file;
     scene.terrain.shape = DemTerrain{.path = path("again.tif"), .crs = {}, .band = 1};
     const auto after = terrain::load_terrain(scene);
@@ -309,12 +313,11 @@ TEST_F(Output, TerrainSurvivesARoundTrip) {
 
 TEST_F(Output, GeotiffThatCannotBeWrittenLeavesNothing) {
   const RasterView r = output::resample(grid(40, 40, 1));
-  EXPECT_NE(output::write_geotiff(path("no/such/t.tif"), r).error().front().text().find("No such file"),
-            std::string::npos);
+  EXPECT_NE(write_heights(path("no/such/t.tif"), r).error().front().text().find("No such file"), std::string::npos);
   if (fs::exists("/dev/full")) {
     fs::create_symlink("/dev/full", path("t.tif.part"));
     ::testing::internal::CaptureStderr();
-    const auto full = output::write_geotiff(path("t.tif"), r);
+    const auto full = write_heights(path("t.tif"), r);
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
     ASSERT_FALSE(full);
   }

@@ -243,7 +243,9 @@ TEST(SceneErrors, SayWhatIsWrongAndWhatWouldBeRight) {
       {"solver.bvh_update = { every = 0 }",
        "solver.bvh_update.every: 0 is out of range; expected an integer >= 1 and <= 1e9 (steps)"},
       {"solver = 3", "solver: 3 is a number; expected a table"},
-      {"output.formats = [\"obj\"]", "output.formats[0]: \"obj\" is not known; expected \"ply\", \"tif\" or \"csv\""},
+      {"output.formats = [\"stl\"]",
+       "output.formats[0]: \"stl\" is not known; expected \"ply\", \"obj\", \"glb\", \"vtp\", \"csv\", \"tif\", "
+       "\"change.tif\", \"sinkage.tif\" or \"height.png\""},
       {"output.formats = [\"ply\", \"ply\"]", "output.formats[1]: \"ply\" is there twice; expected each once"},
       {"bodies = 5", "bodies: 5 is a number; expected tables headed [[bodies]]"},
       {"materials.a.base = \"b\"",
@@ -435,7 +437,7 @@ TEST(SceneCheck, FindsInCodeWhatItFindsInFiles) {
   scene.bombs = {{.yield = -5}};
   scene.solver.bvh_update = {UpdatePolicy::Kind::every, 0};
   scene.solver.blast = static_cast<Blast>(9);
-  scene.output.formats = {"obj"};
+  scene.output.formats = {"stl"};
   scene.terrain.shape = GridTerrain{.columns = 1};
   std::vector<std::string> keys;
   for (const Error& error : check(scene)) {

@@ -18,7 +18,9 @@ struct RunTotals {
 };
 
 /// Writes the files of a run into one folder and nowhere else. Each appears under its name when it is complete, or not
-/// at all.
+/// at all. The ground is copied and written by a thread of the recorder's own, so that stepping does not wait for the
+/// disk unless more than 512 MB wait for it. After the first file that cannot be written there are no more; those
+/// before it stay whole.
 class Recorder {
  public:
   /// Makes `folder`, with those above it, and starts `bodies.csv` in it. Fails with the system's reason.
@@ -26,19 +28,19 @@ class Recorder {
 
   Recorder(Recorder&&) noexcept;
   Recorder& operator=(Recorder&&) noexcept;
-  /// Without finish() no `bodies.csv` remains.
+  /// Waits for what is being written. Without finish(), `bodies.csv` ends with the last rows added.
   ~Recorder();
 
   /// One row of `bodies.csv` for each body as it is now. Failures are reported by finish().
   void add_bodies(const World& world);
 
-  /// The ground as it is now in each of Scene::output's formats: `frame_000000.ply` and on. Fails with all that could
-  /// not be written. [O(vertices)]
+  /// The ground as it is now in each of Scene::output's formats: `frame_000000.ply` and on. Fails with the first file
+  /// so far that could not be written: of this frame or one before. [O(vertices)]
   Result<void> write_frame(const World& world);
 
   /// What every run leaves: `summary.json`, `bodies.csv`, `terrain_final.ply`, `terrain_final.tif` for terrain made
-  /// from a grid or a DEM, and `terrain_final.csv` where `csv` is asked for. Every file is tried; fails with all that
-  /// could not be written. The recorder is done then. [O(vertices)]
+  /// from a grid or a DEM, and `terrain_final` in the scene's other formats. Waits until all is written; fails with the
+  /// first file that could not be. The recorder is done then. [O(vertices)]
   Result<void> finish(const World& world, const RunTotals& totals);
 
  private:

@@ -13,7 +13,11 @@ struct RasterView {
   double dx = 0, dy = 0;       ///< size of a pixel, m, > 0: x grows with the column, y falls with the row
   std::string crs;             ///< WKT of the coordinates; empty when unknown
   std::vector<float> heights;  ///< [row * columns + column] m, row 0 northernmost
-  std::vector<std::uint8_t> holes;  ///< [row * columns + column] 1: no data there, the height means nothing
+  std::vector<float>
+      change;  ///< [row * columns + column] m, height less that at the start: what was raised is positive
+  std::vector<float>
+      sinkage;  ///< [row * columns + column] m, how far the soil that is there lies below where it started
+  std::vector<std::uint8_t> holes;  ///< [row * columns + column] 1: no data there, the numbers mean nothing
 };
 
 }  // namespace divot

@@ -77,7 +77,7 @@ struct Bomb {
 /// What a run writes.
 struct OutputSettings {
   double every = 0;                       ///< s between frames of `formats`; 0: only the final state
-  std::vector<std::string> formats = {};  ///< of `ply`, `tif`, `csv`; terrain from a mesh has no `tif`
+  std::vector<std::string> formats = {};  ///< names of docs/scene-format.md, "Formats"
 };
 
 /// Everything that makes a run: what a scene file holds.

@@ -32,6 +32,7 @@ struct ParticleView {
   std::span<const std::uint32_t> vertices;  ///< [particle] the surface vertex it moves, ascending
   std::span<const float> x, y, z;           ///< [particle] m, relative to the surface's origin
   std::span<const float> vx, vy, vz;        ///< [particle] m/s
+  std::span<const float> mass;              ///< [particle] kg
   std::span<const Hold> hold;               ///< [particle] what moves it, a Hold
 };
 

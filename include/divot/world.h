@@ -67,6 +67,14 @@ struct GroundPush {
   Vec3d velocity;     ///< m/s
 };
 
+/// Mechanical energy, J. What is missing against the start went into soil: yield, friction, damping; what came in, from
+/// bombs.
+struct Energy {
+  double bodies_kinetic = 0;    ///< of their motion and spin
+  double bodies_potential = 0;  ///< in Scene::gravity, against the origin of the terrain's coordinates
+  double ground_kinetic = 0;    ///< of the particles that are awake
+};
+
 /// Ground, bodies and bombs that move together. Steps on the threads it was given; several worlds live side by side.
 class World {
  public:
@@ -107,6 +115,10 @@ class World {
   /// How far the vertex lies below the ground it started as, m; negative where soil was deposited.
   float sinkage(std::uint32_t vertex) const;
 
+  /// Pressure by which the soil holds up the vertex, Pa: of its elastic branch or Bekker's curve (docs/physics.md,
+  /// "Ground"); 0 where it is asleep.
+  float pressure(std::uint32_t vertex) const;
+
   /// Height of the ground at x, y in the terrain's coordinates, m; NaN outside it.
   double ground_height(double x, double y) const;
 
@@ -122,6 +134,7 @@ class World {
   UpdateCounts updates() const;
   std::vector<Crater> craters() const;  ///< one for each bomb that went off, in order
   SoilVolume soil_volume() const;
+  Energy energy() const;  ///< [O(awake particles + bodies)]
 
   /// 64 bits over every surface position, awake particle and body. Equal runs give equal bits.
   std::uint64_t state_hash() const;

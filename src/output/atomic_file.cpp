@@ -34,7 +34,12 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : path_(std::move(other.path_)),
       temporary_(std::exchange(other.temporary_, {})),
       stream_(std::move(other.stream_)),
-      reason_(other.reason_) {}
+      reason_(other.reason_),
+      marked_(other.marked_) {}
+
+AtomicFile AtomicFile::adopt(std::string path, std::string temporary) {
+  return AtomicFile(std::move(path), std::move(temporary), nullptr);
+}
 
 Result<AtomicFile> AtomicFile::create(const std::string& path) {
   std::string temporary = path + ".part";
@@ -55,10 +60,30 @@ void AtomicFile::write(const void* data, std::size_t size) {
   if (std::fwrite(data, 1, size, stream_.get()) != size) reason_ = last_reason();
 }
 
+void AtomicFile::mark() {
+  if (reason_ != 0) return;
+  errno = 0;
+  if (std::fflush(stream_.get()) != 0) {
+    reason_ = last_reason();
+    return;
+  }
+  std::error_code unreadable;
+  const std::uintmax_t size = std::filesystem::file_size(temporary_, unreadable);
+  if (!unreadable) marked_ = size;
+}
+
+Result<void> AtomicFile::commit_marked() {
+  stream_.reset();
+  std::error_code reason;
+  std::filesystem::resize_file(temporary_, marked_, reason);
+  reason_ = reason.value();
+  return commit();
+}
+
 Result<void> AtomicFile::commit() {
   // Closing writes what is still buffered: a full disk may only show here.
   errno = 0;
-  if (std::fclose(stream_.release()) != 0 && reason_ == 0) reason_ = last_reason();
+  if (stream_ && std::fclose(stream_.release()) != 0 && reason_ == 0) reason_ = last_reason();
   if (reason_ == 0 && std::rename(temporary_.c_str(), path_.c_str()) != 0) reason_ = last_reason();
   if (reason_ != 0) std::remove(temporary_.c_str());
   temporary_.clear();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -16,6 +17,9 @@ class AtomicFile {
   /// Opens `path`.part. Fails with the system's reason when the folder cannot be written to.
   static Result<AtomicFile> create(const std::string& path);
 
+  /// For a library that writes `temporary` by itself.
+  static AtomicFile adopt(std::string path, std::string temporary);
+
   AtomicFile(AtomicFile&& other) noexcept;
   AtomicFile& operator=(AtomicFile&&) = delete;
   ~AtomicFile();
@@ -26,6 +30,12 @@ class AtomicFile {
   /// Adds bytes at the end. What fails is remembered and reported by commit().
   void write(const void* data, std::size_t size);
   void write(std::string_view text) { write(text.data(), text.size()); }
+
+  /// Hands what was written so far to the system and remembers that the file is whole up to here.
+  void mark();
+
+  /// Puts the file in its place as it was when it was last marked, whatever failed after that.
+  Result<void> commit_marked();
 
   /// Puts the file in its place. Fails with the system's reason (disk full, for one) and then leaves nothing behind.
   Result<void> commit();
@@ -39,7 +49,8 @@ class AtomicFile {
   std::string path_;
   std::string temporary_;  // empty once it is gone
   std::unique_ptr<std::FILE, Close> stream_;
-  int reason_ = 0;  // errno of the first write that failed
+  int reason_ = 0;            // errno of the first write that failed
+  std::uint64_t marked_ = 0;  // bytes up to the last mark
 };
 
 /// Makes the folder of a run, with those above it. Fails with the system's reason.

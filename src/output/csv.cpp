@@ -34,6 +34,7 @@ void BodiesCsv::append(double time, std::span<const BodyView> bodies) {
                    b.orientation.y, b.orientation.z, b.orientation.w, b.sinkage);
   }
   file_.write(rows.data(), rows.size());
+  file_.mark();
 }
 
 Result<void> write_surface_csv(const std::string& path, const SurfaceView& surface, std::span<const float> sinkage) {

@@ -16,11 +16,14 @@ class BodiesCsv {
   /// Starts with the header. Fails with the system's reason.
   static Result<BodiesCsv> create(const std::string& path);
 
-  /// One row for each body. Failures are reported by commit().
+  /// One row for each body, which are safe then. Failures are reported by commit().
   void append(double time, std::span<const BodyView> bodies);
 
   /// Puts the file in its place; nothing may be appended any more. Fails with the system's reason.
   Result<void> commit() { return file_.commit(); }
+
+  /// In place of commit() for a run that fails: the file ends with the last rows that were written whole.
+  Result<void> salvage() { return file_.commit_marked(); }
 
  private:
   explicit BodiesCsv(AtomicFile file) : file_(std::move(file)) {}

@@ -1,62 +1,79 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <set>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "divot/output.h"
 #include "output/csv.h"
-#include "output/geotiff.h"
+#include "output/formats.h"
 #include "output/json.h"
-#include "output/ply.h"
 #include "output/summary.h"
+#include "output/writer.h"
 
 namespace divot {
+namespace {
+
+using output::Format;
+using output::Frame;
+
+// Frames that wait for the disk may take this much memory.
+constexpr std::size_t kMostWaiting = std::size_t{512} << 20;
+
+std::vector<const Format*> formats_of(const World& world, std::vector<std::string> always) {
+  const std::vector<std::string>& asked = world.scene().output.formats;
+  always.insert(always.end(), asked.begin(), asked.end());
+  std::vector<const Format*> found;
+  for (const std::string& name : always) {
+    const Format* format = &output::format(name);
+    if (std::ranges::find(found, format) == found.end()) found.push_back(format);
+  }
+  return found;
+}
+
+}  // namespace
 
 struct Recorder::Impl {
   Impl(std::string results_folder, output::BodiesCsv rows)
       : folder(std::move(results_folder)), bodies(std::move(rows)) {}
+  ~Impl() {
+    if (!finished) static_cast<void>(bodies.salvage());
+  }
 
   std::string path(const std::string& name) const { return (std::filesystem::path(folder) / name).string(); }
+
+  /// Has the writer write the ground in each of `formats` as STEM.FORMAT, and add frames to their series.
+  void write(const World& world, const std::string& stem, const std::vector<const Format*>& formats, bool in_series);
 
   std::string folder;
   output::BodiesCsv bodies;
   std::uint64_t frames = 0;
+  bool finished = false;
+  std::shared_ptr<const Frame> last;
+  std::map<std::string, std::vector<output::SeriesEntry>> series;  // by format; the writer's own
+  output::Writer writer{kMostWaiting};                             // last: it is done before the rest goes
 };
 
-namespace {
-
-// Everything that went wrong, so that one full disk is not reported file by file in as many runs.
-class Failures {
- public:
-  void keep(const Result<void>& result) {
-    if (!result) errors_.insert(errors_.end(), result.error().begin(), result.error().end());
-  }
-  Result<void> take() {
-    if (errors_.empty()) return {};
-    return tl::unexpected(std::move(errors_));
-  }
-
- private:
-  Errors errors_;
-};
-
-std::vector<float> sinkage_of(const World& world) {
-  std::vector<float> sinkage(world.surface().positions.size());
-  for (std::uint32_t v = 0; v < sinkage.size(); ++v) sinkage[v] = world.sinkage(v);
-  return sinkage;
+void Recorder::Impl::write(const World& world, const std::string& stem, const std::vector<const Format*>& formats,
+                           bool in_series) {
+  if (formats.empty()) return;
+  const bool raster = std::ranges::any_of(formats, [](const Format* f) { return f->raster; });
+  last = std::make_shared<const Frame>(output::take_frame(world, last.get(), raster));
+  writer.push(last->bytes(), [this, frame = last, stem, formats, in_series]() -> Result<void> {
+    for (const Format* format : formats) {
+      if (format->raster && !frame->raster) continue;
+      const std::string file = fmt::format("{}.{}", stem, format->name);
+      if (auto written = format->write(path(file), *frame); !written) return written;
+      if (!in_series || format->write_series == nullptr) continue;
+      std::vector<output::SeriesEntry>& entries = series[format->name];
+      entries.push_back({file, frame->time});
+      if (auto written = format->write_series(path(format->series_name), entries); !written) return written;
+    }
+    return {};
+  });
 }
-
-// The ground as one of OutputSettings::formats.
-Result<void> write_ground(const World& world, const std::string& format, const std::string& path) {
-  if (format == "ply") return output::write_ply(path, world.surface(), sinkage_of(world));
-  if (format == "csv") return output::write_surface_csv(path, world.surface(), sinkage_of(world));
-  const std::optional<RasterView> raster = world.raster();
-  return raster ? output::write_geotiff(path, *raster) : Result<void>{};
-}
-
-}  // namespace
 
 Recorder::Recorder(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Recorder::Recorder(Recorder&&) noexcept = default;
@@ -73,23 +90,19 @@ Result<Recorder> Recorder::create(const std::string& folder) {
 void Recorder::add_bodies(const World& world) { impl_->bodies.append(world.time(), world.bodies()); }
 
 Result<void> Recorder::write_frame(const World& world) {
-  Failures failures;
-  for (const std::string& format : world.scene().output.formats)
-    failures.keep(write_ground(world, format, impl_->path(fmt::format("frame_{:06}.{}", impl_->frames, format))));
+  impl_->write(world, fmt::format("frame_{:06}", impl_->frames), formats_of(world, {}), true);
   ++impl_->frames;
-  return failures.take();
+  return impl_->writer.status();
 }
 
 Result<void> Recorder::finish(const World& world, const RunTotals& totals) {
-  Failures failures;
-  failures.keep(impl_->bodies.commit());
-  std::set<std::string> formats = {"ply", "tif"};
-  formats.insert(world.scene().output.formats.begin(), world.scene().output.formats.end());
-  for (const std::string& format : formats)
-    failures.keep(write_ground(world, format, impl_->path(fmt::format("terrain_final.{}", format))));
+  if (auto written = impl_->writer.status(); !written) return written;
+  impl_->write(world, "terrain_final", formats_of(world, {"ply", "tif"}), false);
+  if (auto written = impl_->writer.drain(); !written) return written;
+  impl_->finished = true;
+  if (auto written = impl_->bodies.commit(); !written) return written;
   // Last: where there is a summary, the run is complete.
-  failures.keep(output::write_json(impl_->path("summary.json"), output::summary(world, totals)));
-  return failures.take();
+  return output::write_json(impl_->path("summary.json"), output::summary(world, totals));
 }
 
 }  // namespace divot

@@ -1,5 +1,7 @@
 #include "scene/describe.h"
 
+#include "output/formats.h"
+
 namespace divot::scene {
 namespace {
 
@@ -18,7 +20,6 @@ constexpr const char* kCohesions[] = {"lennard_jones", "mass_spring"};
 constexpr const char* kBlasts[] = {"scaled", "paper"};
 constexpr const char* kIntegrators[] = {"auto", "euler", "rk4"};
 constexpr const char* kNeighbours[] = {"grid", "kd_tree"};
-constexpr const char* kFormats[] = {"ply", "tif", "csv"};
 
 template <class T, class Variant>
 T& as(Variant& variant) {
@@ -181,7 +182,7 @@ void describe_output(Visitor& v, OutputSettings& output) {
             .range = between(0, kForever),
             .meaning = "between frames of `formats`; 0: only the final state"},
            output.every);
-  v.options({.name = "formats", .meaning = "what a frame is written as"}, kFormats, output.formats);
+  v.options({.name = "formats", .meaning = "what a frame is written as"}, output::format_names(), output.formats);
 }
 
 void describe_particles(Visitor& v, Material& m) {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "laws/bekker.h"
 #include "laws/blast.h"
 
 namespace divot::measure {
@@ -153,6 +154,33 @@ void add_face(const state::Surface& surface, const state::Soil& soil, std::uint3
 float sinkage(const state::Surface& surface, const state::Soil& soil, std::uint32_t vertex) {
   const std::uint32_t column = surface.column[vertex];
   return column == kNone ? 0 : soil.original[column].z - surface.position[vertex].z;
+}
+
+float pressure(const state::Surface& surface, const state::Soil& soil, std::span<const laws::Medium> media,
+               std::uint32_t vertex) {
+  const std::uint32_t column = surface.column[vertex];
+  if (column == kNone || soil.particle[column] == kNone) return 0;
+  const laws::Medium& medium = media[surface.material[vertex]];
+  if (!medium.ground) return 0;
+  constexpr float kWide = std::numeric_limits<float>::infinity();
+  const float sunk = soil.rest[column].z - surface.position[vertex].z, plastic = soil.plastic[column];
+  return laws::ground_pressure(medium, plastic + sunk, plastic, kWide, medium.elastic_stiffness).value;
+}
+
+Energy energy(std::span<const state::Body> bodies, const state::Particles& particles, const Vec3d& gravity,
+              const Vec3d& origin) {
+  Energy sum;
+  for (const state::Body& b : bodies) {
+    sum.bodies_kinetic +=
+        0.5 * (b.mass * dot(b.velocity, b.velocity) + b.inertia * dot(b.angular_velocity, b.angular_velocity));
+    sum.bodies_potential -= b.mass * dot(gravity, b.position + origin);
+  }
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (particles.hold[i] == Hold::anchor) continue;
+    const Vec3d v = to_double(particles.velocity(i));
+    sum.ground_kinetic += 0.5 * particles.mass[i] * dot(v, v);
+  }
+  return sum;
 }
 
 Crater crater(const state::Blast& blast, const state::Surface& surface, const state::Soil& soil,

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <span>
+
 #include "divot/world.h"
 #include "geometry/bvh.h"
+#include "laws/medium.h"
 #include "state/blasts.h"
+#include "state/bodies.h"
+#include "state/particles.h"
 #include "state/region.h"
 #include "state/soil.h"
 #include "state/surface.h"
@@ -11,6 +16,14 @@ namespace divot::measure {
 
 /// How far a vertex lies below the ground it started as, m.
 float sinkage(const state::Surface& surface, const state::Soil& soil, std::uint32_t vertex);
+
+/// Pressure by which the soil holds up a vertex, Pa; 0 where no particle is awake.
+float pressure(const state::Surface& surface, const state::Soil& soil, std::span<const laws::Medium> media,
+               std::uint32_t vertex);
+
+/// Mechanical energy of bodies and awake particles. `origin`: potential energy counts from the terrain's z = 0.
+Energy energy(std::span<const state::Body> bodies, const state::Particles& particles, const Vec3d& gravity,
+              const Vec3d& origin);
 
 /// The crater of a blast: depth at its deepest within a crater width, width from rays all round ground zero to where
 /// sinkage first falls to 5 % of the depth. All zero where the ground was not marked. [O(width / spacing)]

@@ -29,7 +29,7 @@ SurfaceView World::surface() const {
 
 ParticleView World::particles() const {
   const state::Particles& p = impl_->particles;
-  return {p.vertex, p.x, p.y, p.z, p.vx, p.vy, p.vz, p.hold};
+  return {p.vertex, p.x, p.y, p.z, p.vx, p.vy, p.vz, p.mass, p.hold};
 }
 
 std::vector<BodyView> World::bodies() const {
@@ -63,6 +63,10 @@ std::vector<DirtyRange> World::take_dirty() {
 
 float World::sinkage(std::uint32_t vertex) const { return measure::sinkage(impl_->surface, impl_->soil, vertex); }
 
+float World::pressure(std::uint32_t vertex) const {
+  return measure::pressure(impl_->surface, impl_->soil, impl_->media, vertex);
+}
+
 double World::ground_height(double x, double y) const {
   const Vec3d origin = impl_->surface.origin;
   const state::SurfacePoint point = state::surface_at(impl_->surface, impl_->tree.bvh, static_cast<float>(x - origin.x),
@@ -72,7 +76,7 @@ double World::ground_height(double x, double y) const {
 
 std::optional<RasterView> World::raster() const {
   if (!impl_->surface.raster) return std::nullopt;
-  return output::resample(impl_->surface);
+  return output::resample(impl_->surface, impl_->soil);
 }
 
 std::vector<std::pair<Vec3, Vec3>> World::bvh_boxes(int level) const {
@@ -100,6 +104,10 @@ std::vector<Crater> World::craters() const {
 }
 
 SoilVolume World::soil_volume() const { return measure::soil_volume(impl_->surface, impl_->soil); }
+
+Energy World::energy() const {
+  return measure::energy(impl_->bodies, impl_->particles, impl_->scene.gravity, impl_->surface.origin);
+}
 
 double SoilVolume::relative_error() const {
   return displaced > 0 ? std::abs(displaced - compacted - deposited) / displaced : 0;
