@@ -9,13 +9,13 @@ using test::Sheet;
 
 Sheet small_sheet() { return test::make_sheet({.columns = 5, .rows = 5, .spacing = 1}); }
 
-struct Step {
+struct Settle {
   std::vector<state::Blast> blasts;
   Stillness stillness{0.01f, 0, 3};
   Moved moved;
   Scratch scratch;
   void operator()(Sheet& s, double time = 0) {
-    update(s.particles, s.soil, s.surface, blasts, s.media, stillness, time, moved, scratch);
+    update(s.particles, s.soil, s.surface, blasts, s.media, stillness, {time, 1.0 / 60, 9.81}, moved, scratch, Jobs(1));
   }
 };
 
@@ -23,7 +23,7 @@ TEST(Settle, TheSurfaceGoesWithItsParticlesAndSaysSo) {
   Sheet s = small_sheet();
   s.particles.hold[3] = Hold::anchor, s.particles.hold[7] = Hold::carried;
   s.particles.z[3] -= 1, s.particles.z[7] -= 0.5f, s.particles.z[12] -= 0.2f;
-  Step step;
+  Settle step;
   step(s);
   EXPECT_EQ(s.surface.position[3].z, 0) << "anchors do not move the ground";
   EXPECT_EQ(s.surface.position[7].z, -0.5f);
@@ -39,7 +39,7 @@ TEST(Settle, WhatIsStillLongEnoughSleeps) {
   Sheet s = small_sheet();
   s.particles.vx[0] = 1;
   s.particles.hold[1] = Hold::carried;
-  Step step;
+  Settle step;
   step(s), step(s);
   EXPECT_EQ(s.particles.hold[12], Hold::free);
   s.particles.vz[12] = -1;  // it stirs once more
@@ -55,7 +55,7 @@ TEST(Settle, SleepersGiveUpTheirElasticRest) {
   const std::uint32_t column = s.particles.column[12];
   s.soil.plastic[column] = 0.3f, s.soil.rest[column].z = -0.3f;
   s.particles.z[12] = -0.4f, s.particles.x[12] += 0.05f, s.particles.vz[12] = 0.001f, s.particles.flow_rate[12] = 2;
-  Step step{.stillness = {0.01f, 0, 1}};
+  Settle step{.stillness = {0.01f, 0, 1}};
   const float fresh = s.soil.fresh_height(column);
   step(s);
   EXPECT_EQ(s.particles.hold[12], Hold::asleep);
@@ -72,7 +72,7 @@ TEST(Settle, ThrownSoilLandsAndNoneIsLost) {
   Sheet s = small_sheet();
   s.soil.particle[s.particles.column[2]] = kNone;  // landing ground that rests
   s.particles.hold[2] = Hold::anchor;
-  Step step;
+  Settle step;
   double sunk = 0;
   step.blasts.push_back({.start = 0, .pulse = 10});
   state::Blast& blast = step.blasts[0];
@@ -105,7 +105,7 @@ TEST(Settle, ThrownSoilLandsAndNoneIsLost) {
 
 TEST(Settle, ABlastEndsWithItsPulseAndItsFlow) {
   Sheet s = small_sheet();
-  Step step;
+  Settle step;
   step.blasts.push_back({.start = 0, .pulse = 1});
   step.blasts[0].column = {s.particles.column[12]};
   s.particles.flow_rate[12] = 1;

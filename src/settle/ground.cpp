@@ -31,6 +31,7 @@ float bring(Ground& ground, std::uint32_t column, double volume) {
   soil.gained[column] += volume;
   soil.compacted[column] += volume - rose;
   soil.rest[column].z += height;
+  soil.loose[column] = std::max(0.0f, soil.loose[column] + height);
   // Bekker's curve goes on where it was left once what lies on top is pressed away.
   if (height > 0) soil.plastic[column] = std::max(0.0f, soil.plastic[column] - height);
   if (i != kNone) ground.particles.z[i] += height;

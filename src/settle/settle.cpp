@@ -27,6 +27,10 @@ void move_surface(const Stillness& stillness, Ground& ground, std::vector<double
     if (step == 0) continue;
     lost[i] = move_vertex(ground.surface, vertex, p.position(i));
     ground.soil.compacted[p.column[i]] += lost[i];
+    // A blast loosens what it makes flow; any other load packs what lay loose.
+    float& loose = ground.soil.loose[p.column[i]];
+    const float sunk = place.z - p.z[i];
+    loose = std::max(0.0f, p.flow_rate[i] > 0 ? loose + std::abs(sunk) : loose - std::max(0.0f, sunk));
     moved.vertices.push_back(vertex);
     moved.distance = std::max(moved.distance, step);
     if (p.hold[i] == Hold::free) moved.free_distance = std::max(moved.free_distance, step);
@@ -68,14 +72,15 @@ void hand_over(const state::Particles& p, std::size_t i, state::Soil& soil) {
 }  // namespace
 
 void update(state::Particles& p, state::Soil& soil, state::Surface& surface, std::vector<state::Blast>& blasts,
-            std::span<const laws::Medium> media, const Stillness& stillness, double time, Moved& moved,
-            Scratch& scratch) {
+            std::span<const laws::Medium> media, const Stillness& stillness, const Step& step, Moved& moved,
+            Scratch& scratch, const Jobs& jobs) {
   moved.vertices.clear();
   moved.distance = moved.free_distance = 0;
   Ground ground{p, soil, surface, moved};
   move_surface(stillness, ground, scratch.lost);
   throw_and_land(blasts, media, scratch.lost, ground);
 
+  soil.restless.insert(soil.restless.end(), moved.vertices.begin(), moved.vertices.end());
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (p.hold[i] != Hold::free) continue;
     if (p.still_steps[i] < stillness.steps) continue;
@@ -83,9 +88,12 @@ void update(state::Particles& p, state::Soil& soil, state::Surface& surface, std
     p.flow_rate[i] = 0;
     p.set_velocity(i, {});
     hand_over(p, i, soil);
+    soil.restless.push_back(p.vertex[i]);
   }
+  sort_unique(soil.restless);
+  slump(ground, media, step.gravity, step.dt, scratch.slump, jobs);
   sort_unique(moved.vertices);
-  for (state::Blast& blast : blasts) blast.active = blast.active && still_acts(blast, p, soil, time);
+  for (state::Blast& blast : blasts) blast.active = blast.active && still_acts(blast, p, soil, step.time);
 }
 
 }  // namespace divot::settle

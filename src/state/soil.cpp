@@ -26,6 +26,8 @@ std::uint32_t touch_column(Surface& surface, Soil& soil, std::uint32_t vertex) {
   soil.area.push_back(vertex_area(surface, vertex));
   soil.gained.push_back(0);
   soil.compacted.push_back(0);
+  soil.loose.push_back(0);
+  soil.excess.push_back(0);
   return column;
 }
 

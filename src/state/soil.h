@@ -24,6 +24,11 @@ struct Soil {
   // columns were compacted by, since what one gains another gives.
   std::vector<double> gained;     ///< [column] soil that came here, less what left; sums to 0; settle/
   std::vector<double> compacted;  ///< [column] volume lost by getting denser, negative where looser; settle/
+
+  // Slopes.
+  std::vector<float> loose;   ///< [column] thickness of soil that was thrown, pushed or slid here, m; settle/
+  std::vector<float> excess;  ///< [column] fall beyond the slope of rest of the steep ground below, m; settle/
+  std::vector<std::uint32_t> restless;  ///< vertices round which the ground may be too steep, ascending; settle/
   std::size_t size() const { return vertex.size(); }
 
   /// Height at which the soil would stand had it never been pressed, m: sinkage z of Bekker's law counts from here.

@@ -180,7 +180,8 @@ void World::Impl::settle_ground() {
     const settle::Stillness stillness{
         static_cast<float>(speed), static_cast<float>(speed * scene.dt),
         static_cast<std::uint16_t>(std::clamp(std::ceil(kStillTime / scene.dt), 2.0, 60000.0))};
-    settle::update(particles, soil, surface, blasts, media, stillness, time() + scene.dt, moved, settle_scratch);
+    const settle::Step step{time() + scene.dt, scene.dt, -scene.gravity.z};
+    settle::update(particles, soil, surface, blasts, media, stillness, step, moved, settle_scratch, *jobs);
     for (const std::uint32_t vertex : moved.vertices) dirty_chunk[vertex / kDirtyChunk] = true;
   });
 }

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "laws/medium.h"
+
+namespace divot::laws {
+
+// When ground slides, and how fast.
+
+/// Dry grains have no cohesion at a free surface: what is fitted to them under wheels is the curve of their envelope,
+/// at most so much among the sands and gravels of [Wong 2008], Pa.
+inline constexpr float kApparentCohesion = 1.6e3f;
+
+/// Height up to which the soil stands vertically, m: 4 c / (density g) tan(45 deg + phi / 2) [Terzaghi 1943].
+inline double critical_height(const Medium& s, double gravity) {
+  const double cohesion = std::max(0.0f, s.cohesion - kApparentCohesion), t = s.tan_friction;
+  return 4 * cohesion / (s.density * gravity) * (t + std::sqrt(1 + t * t));
+}
+
+/// How easily ground flows down a slope, m^2/s: soil beyond the angle of repose, in a layer a third as thick as the
+/// whole slide is high, moves as fast as something that fell so far.
+inline double slide_mobility(double height, double gravity) { return 0.3 * height * std::sqrt(gravity * height); }
+
+}  // namespace divot::laws

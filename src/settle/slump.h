@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "divot/jobs.h"
+#include "laws/medium.h"
+#include "settle/ground.h"
+
+namespace divot::settle {
+
+/// A face of the surface that is too steep to rest.
+struct Slide {
+  std::uint32_t face = 0;
+  double x = 0, y = 0;  ///< what flows through it, uphill: slope beyond that of rest times the face's area, m^2
+  double wanted = 0;    ///< mobility of the ground, m^2/s
+  double stable = 0;    ///< mobility times time that it takes without overshooting, m^2
+  double most = 0;      ///< mobility times time after which all loose soil is gone, m^2
+};
+
+/// Arrays the slump needs; they grow and stay.
+struct SlumpScratch {
+  std::vector<std::uint32_t> faces, vertices, next;
+  std::vector<Slide> found, slides;  ///< ascending by face
+  std::vector<double> inflow;        ///< [vertices] m^3
+  std::vector<float> excess;         ///< [vertices] m
+};
+
+/// Ground that was disturbed and is steeper than it can rest slides, for `dt` seconds: loose soil down to its angle of
+/// repose, intact soil no further than it stood before, cohesive soil until the steep part is no higher than it can
+/// stand. Looks at the faces round `soil.restless` and leaves there what still moves. What a body carries, and what is
+/// in motion, stays out of it. Stable for any dt and any triangles; where `dt` is too long for the triangles it is cut,
+/// and beyond eight cuts the slide is slower. [O(faces that slide)]
+void slump(Ground& ground, std::span<const laws::Medium> media, double gravity, double dt, SlumpScratch& scratch,
+           const Jobs& jobs);
+
+}  // namespace divot::settle
