@@ -1,6 +1,7 @@
 #include "bench/bench.h"
 #ifdef DIVOT_HAS_VIEWER
 #include "bench/upload.h"
+#include "bench/view.h"
 #endif
 
 namespace divot::bench {
@@ -10,7 +11,8 @@ std::span<const Bench> benches() {
       {"figure1", "parts of a step by update policy, the paper's Figure 1", &figure1},
       {"scaling", "a step with every particle awake, by particles and threads", &scaling},
 #ifdef DIVOT_HAS_VIEWER
-      {"upload", "bytes and time of pictures by what is sent for them", &upload}
+      {"upload", "bytes and time of pictures by what is sent for them", &upload},
+      {"view", "pictures a second of the window", &view}
 #endif
   };
   return kBenches;

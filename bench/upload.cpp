@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 
+#include "bench/view_scenes.h"
 #include "viewer/upload_meter.h"
 
 namespace divot::bench {
@@ -28,20 +28,6 @@ struct Shown {
   Row rows[2];  // [way]
   Measurement measurements[2];
 };
-
-// The bomb goes off at once and the ball is on its way, so that there is something to send.
-Result<Scene> paper(const std::string& scenes) {
-  return load_scene((std::filesystem::path(scenes) / "paper.toml").string(), {{"bombs.0.time", "0"}});
-}
-
-// A wheel's ball that ploughs through mud: 500 000 triangles, of which a few hundred move.
-Result<Scene> rolling(const std::string&) {
-  Scene scene;
-  scene.terrain = {.shape = GridTerrain{.columns = 501, .rows = 501, .spacing = 0.15}, .material = "mud"};
-  scene.bodies = {
-      {.name = "ball", .shape = {0.6}, .mass = 500, .position = {}, .above_ground = true, .velocity = {6, 2, 0}}};
-  return scene;
-}
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -133,7 +119,7 @@ cli::BarChart chart(const std::vector<Shown>& all, const char* name, const char*
 
 Result<Report> upload(const Request& request) {
   std::vector<Shown> all = {{.name = "paper", .title = "paper"}, {.name = "rolling", .title = "rolling ball"}};
-  constexpr Result<Scene> (*kScenes[])(const std::string&) = {&paper, &rolling};
+  constexpr Result<Scene> (*kScenes[])(const std::string&) = {&paper_scene, &rolling_scene};
   Report report;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const auto done = kScenes[k](request.scenes).and_then([&](const Scene& scene) { return show(scene, all[k]); });

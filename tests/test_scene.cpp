@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kGrid = "[terrain]\ngrid = { columns = 37, rows = 40, spacing = 10.9 }\n";
 
-// Every key of the format once, none at its default.
+// Every key of the format once, none at its default. The texture is a file that every machine has.
 constexpr const char* kFull = R"(duration = 5
 dt = 0.01
 gravity = [0.5, 0, -1.62]
@@ -56,6 +56,9 @@ restitution = 0.2
 blast_strength = 14
 blast_drag = 15
 ejecta_share = 0.3
+color = "#8a7a55"
+texture = "/proc/self/exe"
+texture_size = 4
 [[bodies]]
 name = "ball"
 shape = { sphere = { radius = 75.0 } }
@@ -175,8 +178,11 @@ TEST(Scene, MaterialsInheritWhateverTheirOrder) {
                            loam.bekker_kc,           loam.bekker_kphi,          loam.bekker_n,
                            loam.elastic_stiffness,   loam.ground_damping_ratio, loam.cohesion,
                            loam.friction_angle_deg,  loam.shear_modulus,        loam.restitution,
-                           loam.blast_strength,      loam.blast_drag,           loam.ejecta_share};
-  const double written[] = {2, 3, 4, 3, 5, 6, 0.1, 7, 8, 9, 10, 0.9, 11, 0.5, 12, 13, 0.1, 0.2, 14, 15, 0.3};
+                           loam.blast_strength,      loam.blast_drag,           loam.ejecta_share,
+                           loam.texture_size};
+  const double written[] = {2, 3, 4, 3, 5, 6, 0.1, 7, 8, 9, 10, 0.9, 11, 0.5, 12, 13, 0.1, 0.2, 14, 15, 0.3, 4};
+  EXPECT_EQ(loam.color, "#8a7a55");
+  EXPECT_EQ(loam.texture, "/proc/self/exe");
   for (std::size_t i = 0; i < std::size(values); ++i) EXPECT_EQ(values[i], written[i]) << i;
   EXPECT_EQ(field.bekker_kphi, 3e6);
   EXPECT_EQ(field.cohesion, loam.cohesion);
@@ -250,6 +256,12 @@ TEST(SceneErrors, SayWhatIsWrongAndWhatWouldBeRight) {
       {"bodies = 5", "bodies: 5 is a number; expected tables headed [[bodies]]"},
       {"materials.a.base = \"b\"",
        "materials.a.base: there is no material \"b\"; expected \"paper\", \"dry_sand\", \"mud\" or \"asphalt\""},
+      {"materials.a.color = \"#12345g\"",
+       "materials.a.color: \"#12345g\" is no colour; expected red, green and blue as two hexadecimal digits each: "
+       "\"#8a7a55\""},
+      {"materials.a.texture = \"none.png\"",
+       "materials.a.texture: \"none.png\" is not a file; expected a PNG or JPEG picture; relative paths start at the "
+       "scene's folder"},
       {"materials.a.dissociation_energy = 1",
        "materials.a.dissociation_energy: unknown key; the nearest known key is e0"},
       {"materials.a.n = 1",

@@ -9,6 +9,7 @@
 #include "cli/series.h"
 #include "cli/stills.h"
 #include "output/atomic_file.h"
+#include "viewer/textures.h"
 
 namespace divot::cli {
 namespace {
@@ -81,12 +82,21 @@ int refuse(Errors errors) {
   return report(errors, status);
 }
 
+// The folder that relative paths start at is the scene's.
+Result<void> check_looks(const RenderOptions& options, const World& world) {
+  auto read = viewer::check_textures(world.materials(), world.scene().folder);
+  if (!read)
+    for (Error& error : read.error()) error.file = options.scene.path;
+  return read;
+}
+
 }  // namespace
 
 int render(const RenderOptions& options) {
   auto world = open_world(options.scene);
   if (!world) return report(world.error(), kBadInput);
   catch_interrupts();
+  if (const auto read = check_looks(options, *world); !read) return report(read.error(), kBadInput);
   const auto asked = plan(options, *world);
   if (!asked) return report(asked.error(), kBadInput);
   auto renderer = renderer_for(options, *asked);

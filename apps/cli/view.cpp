@@ -16,7 +16,7 @@ std::optional<viewer::Quality> quality_of(const std::string& name) {
 // Nothing to open a window on is bad usage: pictures would have been possible.
 int exit_status(const Errors& errors) {
   const std::string& key = errors.front().key;
-  return key == "display" || key == "size" ? kBadInput : kFailed;
+  return key == "display" || key == "size" || key.starts_with("materials.") ? kBadInput : kFailed;
 }
 
 }  // namespace
@@ -27,7 +27,11 @@ int view(const ViewOptions& options) {
   auto window = viewer::Window::create(
       *scene, std::make_shared<const Jobs>(options.scene.threads),
       {.width = options.width, .height = options.height, .quality = quality_of(options.quality)});
-  if (!window) return report(window.error(), exit_status(window.error()));
+  if (!window) {
+    for (Error& error : window.error())
+      if (error.key.starts_with("materials.")) error.file = options.scene.path;
+    return report(window.error(), exit_status(window.error()));
+  }
   window->run();
   return kDone;
 }

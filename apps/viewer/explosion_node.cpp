@@ -14,7 +14,7 @@ namespace {
 constexpr double kGravity = 9.81;  // m/s^2: dust takes as long as soil would need to fall
 constexpr double kReach = 3.565;   // m, half the width of the crater of 1 t (eq. 10)
 constexpr double kLife = 5.0;      // of the dust, in fall times
-constexpr std::uint32_t kDust = 56, kClods = 36;
+constexpr std::uint32_t kFineDust = 56, kFastDust = 32, kClods = 36;
 const osg::Vec3 kFire(1.0f, 0.62f, 0.22f), kSmoke(0.40f, 0.34f, 0.28f), kPale(0.66f, 0.60f, 0.52f);
 const osg::Vec3 kClod(0.16f, 0.11f, 0.08f), kGlare(1.0f, 0.93f, 0.75f);
 
@@ -60,9 +60,11 @@ ExplosionNode::ExplosionNode()
   state->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
 }
 
-void ExplosionNode::update(const Vec3d& origin, std::span<const BombView> bombs, double time, const osg::Vec3d& eye) {
+void ExplosionNode::update(const Vec3d& origin, std::span<const BombView> bombs, double time, const osg::Vec3d& eye,
+                           Quality quality) {
   const bool nothing_before = list_.empty();
   list_.clear();
+  dust_ = quality == Quality::fast ? kFastDust : kFineDust;
   for (std::size_t i = 0; i < bombs.size(); ++i) {
     if (!bombs[i].exploded) continue;
     const Vec3d p = bombs[i].position - origin;
@@ -93,7 +95,7 @@ void ExplosionNode::add_flash(const osg::Vec3& at, float reach, float age) {
 // A stem that rises and slows down, and a ring that runs outward along the ground.
 void ExplosionNode::add_dust(const osg::Vec3& at, float reach, float age, std::uint32_t seed) {
   const float spread = 1 - std::exp(-age / 0.25f), left = 1 - age / static_cast<float>(kLife);
-  for (std::uint32_t i = 0; i < kDust; ++i) {
+  for (std::uint32_t i = 0; i < dust_; ++i) {
     const bool stem = i % 5 < 3;
     const float size = mix(0.7f, 1.3f, chance(seed, i, 0)), high = chance(seed, i, 1), out = chance(seed, i, 2);
     const float up = stem ? mix(0.2f, 1.9f, high) : mix(0.08f, 0.3f, high);

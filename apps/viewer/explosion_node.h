@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "divot/views.h"
+#include "viewer/look.h"
 
 namespace divot::viewer {
 
@@ -15,8 +16,10 @@ class ExplosionNode {
   ExplosionNode();
 
   /// `origin`: the surface's, m. `eye`: m, relative to it; what is far is drawn first. `time`: of the world, s.
+  /// Fast quality has less dust: covering the same pixel again and again is what explosions cost.
   /// [O(bombs + particles log particles)]
-  void update(const Vec3d& origin, std::span<const BombView> bombs, double time, const osg::Vec3d& eye);
+  void update(const Vec3d& origin, std::span<const BombView> bombs, double time, const osg::Vec3d& eye,
+              Quality quality);
 
   osg::Node& root() { return *puffs_; }
 
@@ -33,6 +36,7 @@ class ExplosionNode {
   void add_clods(const osg::Vec3& at, float reach, double seconds, std::uint32_t seed);
   void fill_arrays();
 
+  std::uint32_t dust_ = 0;  // puffs of an explosion
   std::vector<Puff> list_;
   osg::ref_ptr<osg::Geometry> puffs_;
   osg::ref_ptr<osg::Vec3Array> centers_, corners_;

@@ -6,11 +6,18 @@ namespace divot::viewer::glsl {
 
 // What a pixel or, where DENSE is defined, a vertex does. Without branches: software renderers take both sides of them.
 inline constexpr char kFastGroundColor[] = R"(
-#pragma import_defines(BALLS)
+uniform float sinkage_scale, detail_wave;
 uniform vec3 haze_color;
 uniform sampler2DShadow shadow_map;
 uniform sampler2D grain;
 uniform vec4 ball_shadows[6];  // place in the shadow map, and 1 / radius there
+
+// At vertices a picture is taken as coarse as the mesh.
+#ifdef SOIL_TEXTURE
+#define SOIL_LOD log2(max(sinkage_scale * soil_texels, 1.0))
+#else
+#define SOIL_LOD 0.0
+#endif
 
 // `ground`: how turned, how dry by height, how steep, how sunk.
 vec3 ground_color(vec3 sun_light, vec3 sky_light, vec3 shadow_place, vec3 grain_place_haze, vec4 ground, float shown) {
@@ -30,11 +37,24 @@ vec3 ground_color(vec3 sun_light, vec3 sky_light, vec3 shadow_place, vec3 grain_
   vec2 noise = texture(grain, grain_place_haze.xy).xw - 0.5;
 #endif
   float turned = clamp(ground.x * (16.0 + 19.0 * noise.y + 13.0 * noise.x) - 0.33, 0.0, 1.0);
+#if defined(SOIL_TEXTURE) || defined(SOIL_COLOR)
+#ifdef DENSE
+  vec3 soil = soil_at(grain_place_haze.xy * (4.0 * detail_wave), SOIL_LOD);
+#else
+  vec3 soil = soil_at(grain_place_haze.xy * (4.0 * detail_wave), -1.0);
+#endif
+  vec3 earth = turned_soil(soil) * (1.0 + 0.7 * noise.y) * ground.w;
+#ifdef SOIL_COLOR
+  soil *= 1.0 + 0.35 * noise.y + 0.2 * noise.x;
+#endif
+  vec3 albedo = mix(soil, earth, turned);
+#else
   float dry = clamp((noise.x + 0.5 * noise.y + ground.y) * 1.9 + 0.46, 0.0, 1.0);
   float steep = clamp((ground.z + 0.08 * noise.y) * 9.0 - 0.72, 0.0, 1.0);
   vec3 albedo = mix(vec3(0.110, 0.140, 0.045), vec3(0.285, 0.230, 0.115), dry) * (1.0 + 0.7 * noise.y);
   albedo = mix(albedo, vec3(0.245, 0.207, 0.162) + vec3(0.110, 0.105, 0.095) * noise.y, steep);
   albedo = mix(albedo, (vec3(0.160, 0.095, 0.058) + vec3(0.120, 0.077, 0.048) * noise.y) * ground.w, turned);
+#endif
   // Uneven ground catches the low sun unevenly.
   lit *= 1.0 + (0.5 + 0.5 * turned) * noise.y;
 #endif
@@ -46,7 +66,7 @@ inline constexpr char kFastGroundVertex[] = R"(
 uniform vec3 sun_direction, sun_color, sky_color, bounce_color;
 uniform mat4 osg_ViewMatrixInverse, shadow_matrix;
 uniform vec2 haze_range, height_range;
-uniform float shadow_texel, sinkage_scale, detail_wave;
+uniform float shadow_texel;
 in vec2 sinkage;
 in vec4 mark;
 #ifdef DENSE

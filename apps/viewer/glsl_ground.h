@@ -16,14 +16,41 @@ vec3 ramp_color(float value) {
 )";
 
 inline constexpr char kShownNumber[] = R"(
+#pragma import_defines(SOIL)
 uniform int color_by;
+#ifdef SOIL
+uniform float material_number;
+#endif
 // The number that colours show, in the order of ColorBy.
 float shown_number(vec3 p, vec3 n, float sunk, vec4 mark) {
   if (color_by == 1) return p.z;
   if (color_by == 2) return sunk;
   if (color_by == 3) return degrees(acos(clamp(n.z, 0.0, 1.0)));
-  return color_by == 4 ? mark.x : mark.y;
+  if (color_by == 4) return mark.x;
+#ifdef SOIL
+  return material_number;
+#else
+  return mark.y;
+#endif
 }
+)";
+
+// What a material of a colour or a picture of its own looks like, untouched. `lod`: below 0 the one that fits.
+inline constexpr char kSoil[] = R"(
+#if defined(SOIL_TEXTURE)
+uniform sampler2D soil_texture;
+uniform float soil_repeats, soil_texels;
+vec3 soil_at(vec2 place, float lod) {
+  vec3 c = lod < 0.0 ? texture(soil_texture, place * soil_repeats).rgb
+                     : textureLod(soil_texture, place * soil_repeats, lod).rgb;
+  return c * c * 0.75;
+}
+#elif defined(SOIL_COLOR)
+uniform vec3 soil_color;
+vec3 soil_at(vec2 place, float lod) { return soil_color; }
+#endif
+// Below the dry crust soil is moister, which makes it darker and its colour stronger.
+vec3 turned_soil(vec3 soil) { return soil * mix(vec3(0.36), soil / max(max(soil.r, max(soil.g, soil.b)), 1e-3), 0.25); }
 )";
 
 inline constexpr char kNoise[] = R"(
@@ -100,9 +127,18 @@ void main() {
   flat_color *= 1.0 + 0.7 * fine.x;
   vec3 rock = mix(vec3(0.190, 0.155, 0.115), vec3(0.300, 0.260, 0.210), clamp(0.5 + fine.x, 0.0, 1.0));
   float steep = smoothstep(0.07, 0.20, 1.0 - n.z + 0.08 * fine.x);
+#if defined(SOIL_TEXTURE) || defined(SOIL_COLOR)
+  vec3 soil = soil_at(world.xy, -1.0);
+  vec3 earth = turned_soil(soil) * (1.0 + 0.7 * fine.x) * mix(1.0, 0.80, smoothstep(0.1, 1.2, sunk / sinkage_scale));
+#ifdef SOIL_COLOR
+  soil *= 1.0 + 0.35 * fine.x + 0.2 * broad.x;
+#endif
+  vec3 albedo = mix(soil, earth, turned);
+#else
   vec3 earth = mix(vec3(0.105, 0.060, 0.036), vec3(0.215, 0.130, 0.080), clamp(0.5 + 1.1 * fine.x, 0.0, 1.0));
   earth *= mix(1.0, 0.80, smoothstep(0.1, 1.2, sunk / sinkage_scale));
   vec3 albedo = mix(mix(flat_color, rock, steep), earth, turned);
+#endif
 
   // Loose soil is rougher than what grew over it.
   n = normalize(n - vec3(fine.yz, 0.0) * mix(0.16, 0.30, turned));

@@ -5,15 +5,15 @@ namespace divot::viewer::glsl {
 
 // Varyings are taken inside the triangle (centroid): extrapolated to a pixel's middle outside of it they would sprinkle
 // dark dots along ridges.
-inline constexpr char kLightInputs[] = R"(uniform mat4 osg_ViewMatrixInverse;
+inline constexpr char kLightUniforms[] = R"(uniform mat4 osg_ViewMatrixInverse;
 uniform vec3 sun_direction, sun_color, sky_color, bounce_color, haze_color;
 uniform vec2 haze_range;
 uniform sampler2DShadow shadow_map;
 uniform mat4 shadow_matrix;
 uniform float shadow_texel;
-in vec3 world, facing;
-
 )";
+
+inline constexpr char kLitPlace[] = "in vec3 world, facing;\n";
 
 inline constexpr char kFineSunlight[] = R"(// Spread over a disk; the first four stand around its rim.
 const vec2 kDisk[12] = vec2[](vec2(-0.840, -0.074), vec2(0.962, -0.195), vec2(0.185, -0.893), vec2(0.219, 0.867),

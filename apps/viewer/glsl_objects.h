@@ -14,7 +14,7 @@ void main() {
 }
 )";
 
-inline constexpr char kBallFragment[] = R"(
+inline constexpr char kBallPattern[] = R"(
 uniform vec3 ball_color, pattern_color;
 in vec3 local;
 
@@ -24,18 +24,53 @@ float line(float x, float width) {
   return 1.0 - smoothstep(width - edge, width + edge, abs(x));
 }
 
-void main() {
+// Colour of the ball at a place on it.
+vec3 patterned() {
   // Eight meridians and the equator, as on a globe.
   vec3 p = normalize(local);
   float ring = length(p.xy);
   // ring sin(4 angle) / 4, without the angle.
   float meridian = p.x * p.y * (p.x * p.x - p.y * p.y) / max(ring * ring * ring, 1e-9);
   float mark = max(line(meridian, 0.014) * smoothstep(0.10, 0.14, ring), line(p.z, 0.045));
+  return mix(ball_color, pattern_color, mark);
+}
+)";
+
+inline constexpr char kBallFragment[] = R"(
+void main() {
   vec3 n = normalize(facing);
   // Light that the ground throws back is weak below, where ball and ground meet.
   float open = 0.55 + 0.45 * smoothstep(-1.0, 0.2, n.z);
-  gl_FragColor = vec4(shade(mix(ball_color, pattern_color, mark), n, open, 0.12), 1.0);
+  gl_FragColor = vec4(shade(patterned(), n, open, 0.12), 1.0);
 }
+)";
+
+// The same with light from the vertices, which are dense on balls that are large in the picture.
+inline constexpr char kFastBallVertex[] = R"(
+out vec3 local, light, glance;
+out float haze;
+void main() {
+  local = gl_Vertex.xyz;
+  vec3 world = (osg_ViewMatrixInverse * (gl_ModelViewMatrix * gl_Vertex)).xyz;
+  vec3 n = normalize(mat3(osg_ViewMatrixInverse) * (gl_NormalMatrix * gl_Normal));
+  vec3 eye = osg_ViewMatrixInverse[3].xyz;
+  float toward = dot(n, sun_direction);
+  vec3 sun = sun_color * (sunlight(world, n) * smoothstep(-0.02, 0.12, toward));
+  float open = 0.55 + 0.45 * smoothstep(-1.0, 0.2, n.z);
+  light = sun * max(toward, 0.0) + mix(bounce_color, sky_color, 0.5 + 0.5 * n.z) * open;
+  float shine = max(dot(n, normalize(normalize(eye - world) + sun_direction)), 0.0);
+  for (int i = 0; i < 6; ++i) shine *= shine;
+  glance = sun * (0.12 * shine);
+  haze = exp(-max(distance(eye, world) - haze_range.x, 0.0) / haze_range.y);
+  gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
+}
+)";
+
+inline constexpr char kFastBallFragment[] = R"(
+uniform vec3 haze_color;
+in vec3 light, glance;
+in float haze;
+void main() { gl_FragColor = vec4(develop(mix(haze_color, patterned() * light + glance, haze)), 1.0); }
 )";
 
 inline constexpr char kDepthVertex[] = R"(#version 130

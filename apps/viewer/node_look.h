@@ -2,6 +2,9 @@
 
 #include <memory>
 #include <osg/Group>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "divot_osg/world_node.h"
 #include "viewer/snapshot.h"
@@ -13,6 +16,9 @@ namespace divot::viewer {
 class NodeStyle {
  public:
   virtual ~NodeStyle() = default;
+  /// State of the ground by material, see TerrainNode::set_looks.
+  virtual std::vector<osg::ref_ptr<osg::StateSet>> looks(std::span<const Material> materials,
+                                                         const std::string& folder) = 0;
   /// Follows the world, after ground and bodies were updated.
   virtual void update(const Snapshot& snapshot, TerrainNode& terrain) = 0;
   /// What is to be drawn, in coordinates relative to the surface's origin.

@@ -2,6 +2,7 @@
 
 #include "viewer/lit_view.h"
 #include "viewer/node_look.h"
+#include "viewer/soil_looks.h"
 
 namespace divot::viewer {
 namespace {
@@ -37,6 +38,11 @@ class DivotStyle : public NodeStyle {
       uniform->setDataVariance(osg::Object::DYNAMIC);
       state->addUniform(uniform);
     }
+  }
+
+  std::vector<osg::ref_ptr<osg::StateSet>> looks(std::span<const Material> materials,
+                                                 const std::string& folder) override {
+    return soil_looks(materials, folder);
   }
 
   void update(const Snapshot& snapshot, TerrainNode& terrain) override {

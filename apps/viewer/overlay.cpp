@@ -19,7 +19,7 @@ osg::ref_ptr<osg::Camera> make_overlay(int width, int height) {
   overlay->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
   overlay->setProjectionMatrixAsOrtho2D(0, width, 0, height);
   overlay->setViewMatrix(osg::Matrixd::identity());
-  overlay->setClearMask(GL_DEPTH_BUFFER_BIT);
+  overlay->setClearMask(0);  // nothing in it asks for depth
   overlay->setRenderOrder(osg::Camera::POST_RENDER);
   overlay->setAllowEventFocus(false);
   overlay->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);

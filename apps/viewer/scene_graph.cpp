@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "viewer/line_view.h"
+#include "viewer/soil_looks.h"
 #include "viewer/sphere.h"
 
 namespace divot::viewer {
@@ -32,7 +34,7 @@ SceneGraph::SceneGraph(const Sun& sun, const Look& look)
       color_by_(new osg::Uniform("color_by", 0)),
       ramp_(new osg::Uniform(osg::Uniform::FLOAT_VEC3, "ramp", kScaleStops)),
       ramp_range_(new osg::Uniform("ramp_range", osg::Vec2(0, 1))) {
-  lines_ = make_line_view({terrain_.ground(), terrain_.walls(), line_bodies_.root(), bombs_.root()}, *ink_cell_);
+  lines_ = make_line_view({terrain_.mesh(), terrain_.walls(), line_bodies_.root(), bombs_.root()}, *ink_cell_);
   for (const auto& uniform : {height_range_, detail_wave_, sinkage_scale_, color_by_, ramp_, ramp_range_}) {
     root_->getOrCreateStateSet()->addUniform(uniform);
   }
@@ -60,6 +62,7 @@ void SceneGraph::set_look(const Look& look) {
 
 void SceneGraph::update(const Snapshot& snapshot) {
   const SurfaceView& surface = snapshot.surface;
+  if (!std::exchange(has_looks_, true)) terrain_.set_looks(soil_looks(snapshot.materials, snapshot.folder));
   terrain_.update(surface, snapshot.dirty, snapshot.sinkage);
   if (look_.color == ColorBy::awake) terrain_.mark_awake(snapshot.particles.vertices);
   const float relief = terrain_.highest() - terrain_.lowest();
@@ -74,7 +77,7 @@ void SceneGraph::update(const Snapshot& snapshot) {
   line_bodies_.update(surface.origin, snapshot.bodies);
   bombs_.update(surface.origin, snapshot.bombs, extent_);
   if (look_.particles) particles_.update(snapshot.particles, surface.spacing);
-  if (look_.effects) explosions_.update(surface.origin, snapshot.bombs, snapshot.time, eye_);
+  if (look_.effects) explosions_.update(surface.origin, snapshot.bombs, snapshot.time, eye_, look_.quality);
   lit().lighting().set_occluders(surface.origin, snapshot.bodies);
   renew_shadows(!snapshot.dirty.empty());
 }

@@ -62,6 +62,7 @@ class SceneGraph {
   ExplosionNode explosions_;
   BoxNode boxes_;
   LitView fine_, fast_;
+  bool has_looks_ = false;
   Look look_;
   ColorScale scale_;
   osg::Vec3d eye_;

@@ -18,6 +18,9 @@ static_assert(kScaleStops == 5, "the length of `ramp` in glsl_ground.h");
 
 const std::string kVersion = "#version 130\n";
 
+// What states set for the ground: how many balls throw shadows, and what its material is coloured with.
+const std::string kSoilDefines = "#pragma import_defines(BALLS, SOIL_COLOR, SOIL_TEXTURE)\n";
+
 osg::ref_ptr<osg::Program> make_program(const std::string& vertex, const std::string& fragment) {
   osg::ref_ptr<osg::Program> program = new osg::Program;
   program->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
@@ -30,8 +33,8 @@ osg::ref_ptr<osg::Program> make_program(const std::string& vertex, const std::st
 // The functions that light what is not the fast ground, which has its own.
 std::string light(Quality quality) {
   const bool fast = quality == Quality::fast;
-  return std::string(glsl::kLightInputs) + (fast ? glsl::kFastSunlight : glsl::kFineSunlight) + glsl::kOpenness +
-         (fast ? glsl::kFastDevelop : glsl::kDevelop) + glsl::kShade;
+  return std::string(glsl::kLightUniforms) + glsl::kLitPlace + (fast ? glsl::kFastSunlight : glsl::kFineSunlight) +
+         glsl::kOpenness + (fast ? glsl::kFastDevelop : glsl::kDevelop) + glsl::kShade;
 }
 
 }  // namespace
@@ -43,12 +46,13 @@ osg::ref_ptr<osg::Program> ground_program(const GroundStyle& style) {
   if (style.dense && style.quality == Quality::fast) head += "#define DENSE\n";
   const std::string vertex = head + glsl::kShownNumber;
   if (style.quality == Quality::fast) {
-    const std::string color = std::string(glsl::kFastDevelop) + glsl::kRamp + glsl::kFastGroundColor;
+    const std::string color =
+        kSoilDefines + std::string(glsl::kFastDevelop) + glsl::kRamp + glsl::kSoil + glsl::kFastGroundColor;
     return make_program(vertex + color + glsl::kOpenness + glsl::kFastGroundVertex,
                         head + color + glsl::kFastGroundFragment);
   }
-  return make_program(vertex + glsl::kGroundVertex,
-                      head + light(style.quality) + glsl::kNoise + glsl::kRamp + glsl::kGroundFragment);
+  return make_program(vertex + glsl::kGroundVertex, head + kSoilDefines + light(style.quality) + glsl::kNoise +
+                                                        glsl::kRamp + glsl::kSoil + glsl::kGroundFragment);
 }
 
 osg::ref_ptr<osg::Program> wall_program(Quality quality) {
@@ -58,7 +62,11 @@ osg::ref_ptr<osg::Program> wall_program(Quality quality) {
 }
 
 osg::ref_ptr<osg::Program> ball_program(Quality quality) {
-  return make_program(glsl::kBallVertex, kVersion + light(quality) + glsl::kBallFragment);
+  if (quality == Quality::fast) {
+    return make_program(kVersion + glsl::kLightUniforms + glsl::kFastSunlight + glsl::kFastBallVertex,
+                        kVersion + glsl::kFastDevelop + glsl::kBallPattern + glsl::kFastBallFragment);
+  }
+  return make_program(glsl::kBallVertex, kVersion + light(quality) + glsl::kBallPattern + glsl::kBallFragment);
 }
 
 osg::ref_ptr<osg::Program> depth_program() { return make_program(glsl::kDepthVertex, glsl::kDepthFragment); }

@@ -13,6 +13,9 @@ inline constexpr int kMaxOccluders = 16;
 /// BALLS with their number.
 inline constexpr int kMaxBallShadows = 6;
 
+/// Texture unit of a material's picture.
+inline constexpr unsigned kSoilUnit = 3;
+
 // The programs of the picture, GLSL 1.30 with OpenGL's compatibility built-ins. Positions in them are the surface's, in
 // metres relative to its origin. What their uniforms mean stands with the uniforms in lighting.h and scene_graph.cpp.
 

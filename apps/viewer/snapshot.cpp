@@ -11,6 +11,7 @@ Snapshot take_snapshot(World& world) {
           .bodies = world.bodies(),
           .bombs = world.bombs(),
           .materials = world.materials(),
+          .folder = world.scene().folder,
           .sinkage = [&world](std::uint32_t vertex) { return world.sinkage(vertex); },
           .time = world.time()};
 }

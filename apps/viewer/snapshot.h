@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "divot/material.h"
@@ -21,8 +22,9 @@ struct Snapshot {
   std::vector<BodyView> bodies;
   std::vector<BombView> bombs;
   std::span<const Material> materials;
-  Sinkage sinkage;  ///< empty: nothing has sunk
-  double time = 0;  ///< s
+  std::string folder;  ///< where relative paths of their textures start
+  Sinkage sinkage;     ///< empty: nothing has sunk
+  double time = 0;     ///< s
 };
 
 /// Takes the world's dirty ranges with it: one snapshot for each picture. [O(bodies + bombs + ranges)]

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "divot/ids.h"
+#include "viewer/color_scale.h"
+
 namespace divot::viewer {
 namespace {
 
@@ -52,16 +55,7 @@ TerrainChunk::TerrainChunk(const SurfaceView& surface, std::span<const std::uint
                            std::span<const std::uint32_t> fringe, float base)
     : own_count_(own.size()), base_(base) {
   index_vertices(surface, own, fringe);
-  positions_ = new osg::Vec3Array(static_cast<unsigned>(vertices_.size()));
-  normals_ = new osg::Vec3Array(static_cast<unsigned>(vertices_.size()));
-  sinkage_ = new osg::Vec2Array(static_cast<unsigned>(vertices_.size()));
-  ground_ = make_geometry(*positions_, *normals_, *sinkage_);
-  marks_ = new osg::Vec4ubArray(static_cast<unsigned>(vertices_.size()));
-  for (std::size_t i = 0; i < vertices_.size(); ++i) (*marks_)[i].set(0, surface.materials[vertices_[i]], 0, 0);
-  ground_->setVertexAttribArray(kMarkAttribute, marks_, osg::Array::BIND_PER_VERTEX);
-  ground_->addPrimitiveSet(
-      new osg::DrawElementsUInt(GL_TRIANGLES, static_cast<unsigned>(3 * own_count_), corners_.data()));
-
+  build_parts(surface);
   border_ = border_edges(corners_, own_count_, vertices_.size());
   if (!border_.empty()) build_wall();
 }
@@ -81,6 +75,70 @@ void TerrainChunk::index_vertices(const SurfaceView& surface, std::span<const st
     const auto found = std::lower_bound(vertices_.begin(), vertices_.end(), corner);
     corner = static_cast<std::uint32_t>(found - vertices_.begin());
   }
+}
+
+// Sorts the own triangles by material. A corner alone in its material is cut off halfway along its edges; where all
+// three differ they meet in the middle. Edges between equal corners stay whole, as the triangle beyond them may be.
+std::map<std::uint8_t, std::vector<std::uint32_t>> TerrainChunk::split(const SurfaceView& surface) {
+  std::map<std::uint8_t, std::vector<std::uint32_t>> lists;
+  std::map<Cut, std::uint32_t> made;
+  const auto material = [&](std::uint32_t local) { return surface.materials[vertices_[local]]; };
+  const auto add = [&](std::uint32_t of, std::initializer_list<std::uint32_t> corners) {
+    auto& list = lists[material(of)];
+    list.insert(list.end(), corners);
+  };
+  for (std::size_t t = 0; t < 3 * own_count_; t += 3) {
+    const auto corner = [&](std::size_t k) { return corners_[t + k % 3]; };
+    const auto differ = [&](std::size_t k) { return material(corner(k)) != material(corner(k + 1)); };
+    const auto between = [&](std::uint32_t a, std::uint32_t b) { return cut_point(made, {{a, b, kNone}, 2}); };
+    if (!differ(0) && !differ(1)) {
+      add(corner(0), {corner(0), corner(1), corner(2)});
+    } else if (differ(0) && differ(1) && differ(2)) {
+      const std::uint32_t middle = cut_point(made, {{corner(0), corner(1), corner(2)}, 3});
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t after = between(corner(k), corner(k + 1)), before = between(corner(k), corner(k + 2));
+        add(corner(k), {corner(k), after, middle, corner(k), middle, before});
+      }
+    } else {
+      const std::size_t alone = differ(0) && differ(1) ? 1 : differ(1) ? 2 : 0;
+      const std::uint32_t tip = corner(alone), next = corner(alone + 1), last = corner(alone + 2);
+      const std::uint32_t after = between(tip, next), before = between(tip, last);
+      add(tip, {tip, after, before});
+      add(next, {after, next, last, after, last, before});
+    }
+  }
+  return lists;
+}
+
+void TerrainChunk::build_parts(const SurfaceView& surface) {
+  const auto lists = split(surface);
+  const auto count = static_cast<unsigned>(vertices_.size() + cuts_.size());
+  positions_ = new osg::Vec3Array(count);
+  normals_ = new osg::Vec3Array(count);
+  sinkage_ = new osg::Vec2Array(count);
+  marks_ = new osg::Vec4ubArray(count);
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    (*marks_)[i].set(0, static_cast<unsigned char>(surface.materials[vertices_[i]] % kScaleStops), 0, 0);
+  }
+  const auto geometry_of = [&](std::span<const std::uint32_t> corners) {
+    osg::ref_ptr<osg::Geometry> geometry = make_geometry(*positions_, *normals_, *sinkage_);
+    geometry->setVertexAttribArray(kMarkAttribute, marks_, osg::Array::BIND_PER_VERTEX);
+    geometry->addPrimitiveSet(
+        new osg::DrawElementsUInt(GL_TRIANGLES, static_cast<unsigned>(corners.size()), corners.data()));
+    index_count_ += corners.size();
+    return geometry;
+  };
+  for (const auto& [material, corners] : lists) parts_.push_back({material, geometry_of(corners)});
+  mesh_ = parts_.size() == 1 ? parts_.front().ground : geometry_of(std::span(corners_).first(3 * own_count_));
+}
+
+// The local vertex of a cut, whichever way round its triangle names it.
+std::uint32_t TerrainChunk::cut_point(std::map<Cut, std::uint32_t>& made, Cut cut) {
+  std::sort(cut.of.begin(), cut.of.end());  // kNone stays last
+  const auto next = static_cast<std::uint32_t>(vertices_.size() + cuts_.size());
+  const auto [at, is_new] = made.emplace(cut, next);
+  if (is_new) cuts_.push_back(cut);
+  return at->second;
 }
 
 // Each border edge becomes a quad of its own: two corners on the ground, two at the base.
@@ -113,12 +171,17 @@ std::size_t TerrainChunk::refresh(const SurfaceView& surface, const Sinkage& sin
     const Vec3& p = surface.positions[vertices_[i]];
     (*positions_)[i].set(p.x, p.y, p.z);
   }
-  positions_->dirty();
   refresh_normals();
   refresh_sinkage(sinkage);
-  ground_->dirtyBound();
+  refresh_cuts();
+  for (osg::Array* array :
+       {static_cast<osg::Array*>(positions_), static_cast<osg::Array*>(normals_), static_cast<osg::Array*>(sinkage_)}) {
+    array->dirty();
+  }
+  for (const ChunkPart& part : parts_) part.ground->dirtyBound();
+  mesh_->dirtyBound();
   if (wall_) refresh_wall();
-  return kVertex * (vertices_.size() + (wall_ ? wall_positions_->size() : 0));
+  return kVertex * (positions_->size() + (wall_ ? wall_positions_->size() : 0));
 }
 
 std::size_t TerrainChunk::mark_awake(std::span<const std::uint32_t> awake) {
@@ -133,6 +196,11 @@ std::size_t TerrainChunk::mark_awake(std::span<const std::uint32_t> awake) {
   if (now == awake_) return 0;
   for (const std::uint32_t vertex : awake_) (*marks_)[vertex].x() = 0;
   for (const std::uint32_t vertex : now) (*marks_)[vertex].x() = 1;
+  for (std::size_t i = 0; i < cuts_.size(); ++i) {
+    const auto is_awake = [&](std::uint32_t vertex) { return (*marks_)[vertex].x() != 0; };
+    const auto ends = std::span(cuts_[i].of).first(cuts_[i].count);
+    (*marks_)[vertices_.size() + i].x() = std::any_of(ends.begin(), ends.end(), is_awake) ? 1 : 0;
+  }
   awake_ = std::move(now);
   marks_->dirty();
   return marks_->getTotalDataSize();
@@ -140,8 +208,8 @@ std::size_t TerrainChunk::mark_awake(std::span<const std::uint32_t> awake) {
 
 std::size_t TerrainChunk::size_bytes() const {
   const std::size_t walls = wall_ ? wall_positions_->size() : 0;
-  return kVertex * (vertices_.size() + walls) + marks_->getTotalDataSize() +
-         sizeof(std::uint32_t) * (3 * own_count_ + walls / 4 * 6);
+  return kVertex * (positions_->size() + walls) + marks_->getTotalDataSize() +
+         sizeof(std::uint32_t) * (index_count_ + walls / 4 * 6);
 }
 
 // The cross product is twice the triangle's area long, which is just the weight its normal should have.
@@ -154,7 +222,6 @@ void TerrainChunk::refresh_normals() {
     for (std::size_t k = 0; k < 3; ++k) (*normals_)[corners_[c + k]] += weighted;
   }
   for (osg::Vec3& normal : *normals_) normal.normalize();
-  normals_->dirty();
 }
 
 void TerrainChunk::refresh_sinkage(const Sinkage& sinkage) {
@@ -173,7 +240,25 @@ void TerrainChunk::refresh_sinkage(const Sinkage& sinkage) {
       spread = std::max(spread, largest);
     }
   }
-  sinkage_->dirty();
+}
+
+void TerrainChunk::refresh_cuts() {
+  for (std::size_t i = 0; i < cuts_.size(); ++i) {
+    const std::size_t at = vertices_.size() + i;
+    const Cut& cut = cuts_[i];
+    const float share = 1 / static_cast<float>(cut.count);
+    osg::Vec3 position, normal;
+    osg::Vec2 sunk;
+    for (std::size_t k = 0; k < cut.count; ++k) {
+      position += (*positions_)[cut.of[k]];
+      normal += (*normals_)[cut.of[k]];
+      sunk += (*sinkage_)[cut.of[k]];
+    }
+    normal.normalize();
+    (*positions_)[at] = position * share;
+    (*normals_)[at] = normal;
+    (*sinkage_)[at] = sunk * share;
+  }
 }
 
 void TerrainChunk::refresh_wall() {

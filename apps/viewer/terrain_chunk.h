@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
+#include <compare>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <osg/Geometry>
 #include <span>
 #include <vector>
@@ -18,13 +21,22 @@ using Sinkage = std::function<float(std::uint32_t vertex)>;
 /// sinkage itself is 0.
 inline constexpr unsigned kSinkageAttribute = 6;
 
-/// Vertex attribute of two small numbers: 1 where the vertex is an awake particle, and its material.
+/// Vertex attribute of two small numbers: 1 where the vertex is an awake particle, and the colour of its material.
 inline constexpr unsigned kMarkAttribute = 7;
+
+/// The ground of one material within a chunk.
+struct ChunkPart {
+  std::uint8_t material;
+  osg::ref_ptr<osg::Geometry> ground;
+};
 
 /// A part of the terrain small enough to be sent again as a whole when one of its vertices moved.
 ///
 /// It keeps copies of its vertices and also knows the triangles of its neighbours that touch them (the fringe), so that
 /// its normals are the same as those across the border. Where the terrain ends, a wall goes down to the block's base.
+///
+/// Triangles whose corners are of different materials are cut halfway along their edges, so that borders are sharp. The
+/// points of the cuts are vertices of the chunk alone, between two or three of the surface's.
 class TerrainChunk {
  public:
   /// Own triangles and fringe, as indices into `surface.triangles` / 3. `base`: height of the wall's foot, m, relative
@@ -50,13 +62,27 @@ class TerrainChunk {
   /// Bytes of all its vertices and indices.
   std::size_t size_bytes() const;
 
-  osg::Geometry& ground() { return *ground_; }
+  /// Ascending by material; all share one set of arrays.
+  const std::vector<ChunkPart>& parts() const { return parts_; }
+  /// The triangles as they are, whatever they are made of.
+  osg::Geometry& mesh() { return *mesh_; }
   /// Null where the terrain does not end within the chunk.
   osg::Geometry* wall() { return wall_.get(); }
 
  private:
+  // A point between `count` local vertices.
+  struct Cut {
+    std::array<std::uint32_t, 3> of;
+    std::uint32_t count;
+    friend auto operator<=>(const Cut&, const Cut&) = default;
+  };
+
   void index_vertices(const SurfaceView& surface, std::span<const std::uint32_t> own,
                       std::span<const std::uint32_t> fringe);
+  std::map<std::uint8_t, std::vector<std::uint32_t>> split(const SurfaceView& surface);
+  void build_parts(const SurfaceView& surface);
+  std::uint32_t cut_point(std::map<Cut, std::uint32_t>& made, Cut cut);
+  void refresh_cuts();
   void build_wall();
   void refresh_normals();
   void refresh_sinkage(const Sinkage& sinkage);
@@ -65,11 +91,14 @@ class TerrainChunk {
   std::vector<std::uint32_t> vertices_;  // [local vertex] id, ascending
   std::vector<std::uint32_t> corners_;   // [3 * triangle + corner] local vertex; own triangles first
   std::size_t own_count_;                // triangles that are drawn
+  std::size_t index_count_ = 0;          // of all geometries of the ground
+  std::vector<Cut> cuts_;                // local vertices after those of the surface
   std::vector<std::uint32_t> awake_;     // local vertices that are marked so, ascending
   float largest_sinkage_ = 0;            // m
   std::vector<std::uint32_t> border_;    // [2 * edge + end] local vertices of edges with ground on one side only
   float base_;                           // m
-  osg::ref_ptr<osg::Geometry> ground_, wall_;
+  std::vector<ChunkPart> parts_;
+  osg::ref_ptr<osg::Geometry> mesh_, wall_;
   osg::ref_ptr<osg::Vec3Array> positions_, normals_, wall_positions_, wall_normals_;
   osg::ref_ptr<osg::Vec2Array> sinkage_, wall_depth_;
   osg::ref_ptr<osg::Vec4ubArray> marks_;  // four bytes, as cards like them aligned

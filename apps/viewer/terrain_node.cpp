@@ -8,7 +8,8 @@
 namespace divot::viewer {
 namespace {
 
-constexpr std::size_t kChunkTriangles = 16384;  // about a millisecond of work when one vertex in it moves
+// Small chunks are cheap when one vertex in them moves, and dear as each is culled and drawn by a call of its own.
+constexpr std::size_t kFewestTriangles = 512, kMostTriangles = 8192, kWantedChunks = 32;
 
 // Faces sorted into square cells, as rows: cell c holds faces[start[c]] to faces[start[c + 1]].
 struct Cells {
@@ -34,7 +35,8 @@ Cells gather(std::span<const std::uint32_t> cell_of, std::span<const std::uint32
 std::vector<std::uint32_t> assign_cells(const SurfaceView& surface, const Region& bounds, std::size_t& cell_count) {
   const std::size_t faces = surface.triangles.size() / 3;
   const double wide = bounds.max.x - bounds.min.x, deep = bounds.max.y - bounds.min.y;
-  const double wanted = std::max(1.0, std::round(static_cast<double>(faces) / static_cast<double>(kChunkTriangles)));
+  const std::size_t size = std::clamp(faces / kWantedChunks, kFewestTriangles, kMostTriangles);
+  const double wanted = std::max(1.0, std::round(static_cast<double>(faces) / static_cast<double>(size)));
   const double cell = std::sqrt(std::max(wide * deep, 1e-12) / wanted);
   const auto columns = static_cast<std::uint32_t>(std::clamp(std::ceil(wide / cell - 1e-6), 1.0, wanted));
   const auto rows = static_cast<std::uint32_t>(std::clamp(std::ceil(deep / cell - 1e-6), 1.0, wanted));
@@ -94,7 +96,7 @@ Cells fringes(const SurfaceView& surface, std::span<const std::uint32_t> cell_of
 
 }  // namespace
 
-TerrainNode::TerrainNode() : ground_(new osg::Group), walls_(new osg::Group) {}
+TerrainNode::TerrainNode() : ground_(new osg::Group), mesh_(new osg::Group), walls_(new osg::Group) {}
 
 void TerrainNode::update(const SurfaceView& surface, std::span<const DirtyRange> dirty, const Sinkage& sinkage) {
   if (surface.positions.size() != vertex_count_ || surface.triangles.size() != corner_count_) {
@@ -122,6 +124,8 @@ void TerrainNode::rebuild(const SurfaceView& surface, const Sinkage& sinkage) {
   largest_sinkage_ = 0;
   chunks_.clear();
   ground_->removeChildren(0, ground_->getNumChildren());
+  ground_materials_.clear();
+  mesh_->removeChildren(0, mesh_->getNumChildren());
   walls_->removeChildren(0, walls_->getNumChildren());
   vertex_count_ = surface.positions.size();
   corner_count_ = surface.triangles.size();
@@ -141,7 +145,12 @@ void TerrainNode::rebuild(const SurfaceView& surface, const Sinkage& sinkage) {
     chunk.refresh(surface, sinkage);
     largest_sinkage_ = std::max(largest_sinkage_, chunk.largest_sinkage());
     uploaded_bytes_ += chunk.size_bytes();
-    ground_->addChild(&chunk.ground());
+    for (const ChunkPart& part : chunk.parts()) {
+      if (part.material < looks_.size()) part.ground->setStateSet(looks_[part.material]);
+      ground_->addChild(part.ground);
+      ground_materials_.push_back(part.material);
+    }
+    mesh_->addChild(&chunk.mesh());
     if (chunk.wall()) walls_->addChild(chunk.wall());
   }
 }

@@ -22,7 +22,16 @@ class TerrainNode {
   /// Marks which vertices are awake particles; ids, ascending. [O(chunks + awake)]
   void mark_awake(std::span<const std::uint32_t> awake);
 
+  /// State under which each material is drawn, [material]; where one is missing or null, nothing is set. Takes effect
+  /// when chunks are made.
+  void set_looks(std::vector<osg::ref_ptr<osg::StateSet>> looks) { looks_ = std::move(looks); }
+
+  /// One geometry for each chunk and material.
   osg::Group& ground() { return *ground_; }
+  /// The material of each child of ground().
+  std::span<const std::uint8_t> ground_materials() const { return ground_materials_; }
+  /// The ground's triangles, for lines.
+  osg::Group& mesh() { return *mesh_; }
   osg::Group& walls() { return *walls_; }
 
   /// Heights of the ground before anything deformed it, m, relative to the origin: they colour the picture and must not
@@ -44,7 +53,9 @@ class TerrainNode {
   void rebuild(const SurfaceView& surface, const Sinkage& sinkage);
   void measure(const SurfaceView& surface, const Sinkage& sinkage);
 
-  osg::ref_ptr<osg::Group> ground_, walls_;
+  osg::ref_ptr<osg::Group> ground_, mesh_, walls_;
+  std::vector<osg::ref_ptr<osg::StateSet>> looks_;
+  std::vector<std::uint8_t> ground_materials_;
   std::vector<TerrainChunk> chunks_;
   std::size_t vertex_count_ = 0, corner_count_ = 0;
   Region bounds_;

@@ -299,7 +299,11 @@ INSTANTIATE_TEST_SUITE_P(Looks, WorldNodeLook, ::testing::Values(NodeLook::appli
                          [](const auto& look) { return look.param == NodeLook::divot ? "Divot" : "Application"; });
 
 TEST(WorldNode, TurnedSoilHasItsColour) {
-  osg::ref_ptr<WorldNode> green = make_node({.soil = {0, 1, 0, 1}, .turned = {1, 0, 0, 1}, .body = {0, 0, 1, 1}});
+  Scene scene = ball_scene();
+  scene.materials = {*find_preset(scene.terrain.material)};
+  scene.materials.front().color.clear();
+  osg::ref_ptr<WorldNode> green =
+      WorldNode::create(scene, nullptr, {.soil = {0, 1, 0, 1}, .turned = {1, 0, 0, 1}, .body = {0, 0, 1, 1}}).value();
   Application application(green);
   const auto reddish = [](const Image& image) {
     int count = 0;

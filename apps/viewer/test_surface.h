@@ -51,6 +51,11 @@ class TestSurface {
     return dirty;
   }
 
+  /// What the ground is made of, by place relative to its middle.
+  void set_materials(const std::function<std::uint8_t(double x, double y)>& material) {
+    for (std::size_t i = 0; i < positions_.size(); ++i) materials_[i] = material(positions_[i].x, positions_[i].y);
+  }
+
   SurfaceView view() const {
     SurfaceView view;
     view.origin = {700000, 4000000, 120};

@@ -3,15 +3,19 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "viewer/display.h"
 #include "viewer/failure.h"
 #include "viewer/hud.h"
 #include "viewer/live_view.h"
+#include "viewer/offscreen_context.h"
 #include "viewer/pixel_reader.h"
 #include "viewer/saves.h"
 #include "viewer/screen.h"
+#include "viewer/textures.h"
 
 namespace divot::viewer {
 namespace {
@@ -27,6 +31,18 @@ constexpr double kSlowPicture = 0.035, kPatience = 2;  // s; so long of such pic
 
 double seconds(Clock::duration span) { return std::chrono::duration<double>(span).count(); }
 
+// Milliseconds from one call to the next.
+class Lap {
+ public:
+  double operator()() {
+    const auto before = std::exchange(at_, Clock::now());
+    return 1e3 * seconds(at_ - before);
+  }
+
+ private:
+  Clock::time_point at_ = Clock::now();
+};
+
 Result<void> check(const WindowOptions& options) {
   const auto is_size = [](int size) { return size >= kLeastSize && size <= kLargestSize; };
   if (is_size(options.width) && is_size(options.height)) return {};
@@ -34,11 +50,26 @@ Result<void> check(const WindowOptions& options) {
                  fmt::format("{} to {} pixels each way", kLeastSize, kLargestSize), "size");
 }
 
+Result<LiveWorld> open_world(const Scene& scene, std::shared_ptr<const Jobs> jobs) {
+  return LiveWorld::create(scene, std::move(jobs)).and_then([](LiveWorld&& live) -> Result<LiveWorld> {
+    const World& world = live.world();
+    if (const auto read = check_textures(world.materials(), world.scene().folder); !read) {
+      return tl::unexpected(read.error());
+    }
+    return std::move(live);
+  });
+}
+
 }  // namespace
 
 struct Window::Impl {
-  Impl(LiveWorld live, const WindowOptions& asked, Quality first, osg::ref_ptr<osgViewer::Viewer> screen);
+  Impl(LiveWorld live, const WindowOptions& asked, Quality first, osg::ref_ptr<osgViewer::Viewer> screen,
+       std::optional<OffscreenContext> memory = {});
+  ~Impl();
 
+  FrameCost show(double passed);
+
+  double aspect() const { return static_cast<double>(width) / height; }
   void carry_out_commands();
   void window_action(Action action);
   void follow_size();
@@ -52,6 +83,7 @@ struct Window::Impl {
   void save_world();
 
   WindowOptions options;
+  std::optional<OffscreenContext> context;  // where there is no display
   osg::ref_ptr<osgViewer::Viewer> viewer;
   LiveView view;
   Hud hud;
@@ -66,8 +98,10 @@ struct Window::Impl {
   std::uint64_t pictures = 0, uploaded_before = 0;
 };
 
-Window::Impl::Impl(LiveWorld live, const WindowOptions& asked, Quality first, osg::ref_ptr<osgViewer::Viewer> screen)
+Window::Impl::Impl(LiveWorld live, const WindowOptions& asked, Quality first, osg::ref_ptr<osgViewer::Viewer> screen,
+                   std::optional<OffscreenContext> memory)
     : options(asked),
+      context(std::move(memory)),
       viewer(std::move(screen)),
       view(std::move(live), {.quality = first, .effects = asked.effects},
            static_cast<double>(asked.width) / asked.height) {
@@ -79,10 +113,14 @@ Window::Impl::Impl(LiveWorld live, const WindowOptions& asked, Quality first, os
   if (options.paused) view.carry_out(Action::pause, {}, 1);
 }
 
+// What lives on the graphics card can only be given back while the context is current.
+Window::Impl::~Impl() {
+  if (context && context->make_current()) viewer = nullptr;
+}
+
 void Window::Impl::carry_out_commands() {
-  const double aspect = static_cast<double>(width) / height;
   for (const Command& command : input->take()) {
-    view.carry_out(command, input->mouse(), aspect);
+    view.carry_out(command, input->mouse(), aspect());
     if (const auto* action = std::get_if<Action>(&command)) window_action(*action);
   }
   if (const std::string text = view.take_message(); !text.empty()) say(text);
@@ -161,6 +199,23 @@ void Window::Impl::update_hud() {
              seconds(now - start));
 }
 
+FrameCost Window::Impl::show(double passed) {
+  FrameCost cost;
+  Lap lap;
+  follow_size();
+  carry_out_commands();
+  view.advance(std::min(passed, kLongestWait));
+  cost.step_ms = lap();
+  view.update();
+  place_camera();
+  cost.update_ms = lap();
+  if (options.show_numbers) update_hud();
+  cost.hud_ms = lap();
+  draw();
+  cost.draw_ms = lap();
+  return cost;
+}
+
 void Window::Impl::draw() {
   const auto begin = Clock::now();
   viewer->getCamera()->setFinalDrawCallback(picture_wanted ? reader : nullptr);
@@ -194,12 +249,30 @@ Result<Window> Window::create(const Scene& scene, std::shared_ptr<const Jobs> jo
   const auto display = open_display();
   if (!display) return tl::unexpected(display.error());
   const Quality quality = options.quality.value_or(display->accelerated ? Quality::fine : Quality::fast);
-  auto live = LiveWorld::create(scene, std::move(jobs));
+  auto live = open_world(scene, std::move(jobs));
   if (!live) return tl::unexpected(live.error());
   const std::string title = scene.name.empty() ? "divot" : "divot: " + scene.name;
   auto screen = open_screen(options.width, options.height, samples_of(quality), title);
   if (!screen) return tl::unexpected(screen.error());
   return Window(std::make_unique<Impl>(std::move(*live), options, quality, *screen));
+}
+
+Result<Window> Window::create_offscreen(const Scene& scene, std::shared_ptr<const Jobs> jobs,
+                                        const WindowOptions& options) {
+  if (const auto checked = check(options); !checked) return tl::unexpected(checked.error());
+  const Quality quality = options.quality.value_or(Quality::fast);
+  auto live = open_world(scene, std::move(jobs));
+  if (!live) return tl::unexpected(live.error());
+  auto context = OffscreenContext::create(options.width, options.height, samples_of(quality));
+  if (!context) return tl::unexpected(context.error());
+  osg::ref_ptr<osgViewer::Viewer> memory = new osgViewer::Viewer;
+  memory->setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
+  memory->setUpViewerAsEmbeddedInWindow(0, 0, options.width, options.height);
+  memory->setLightingMode(osg::View::NO_LIGHT);
+  memory->getCamera()->setDrawBuffer(GL_BACK);
+  memory->getCamera()->setReadBuffer(GL_BACK);
+  memory->getCamera()->setViewport(0, 0, options.width, options.height);
+  return Window(std::make_unique<Impl>(std::move(*live), options, quality, memory, std::move(*context)));
 }
 
 bool Window::frame() {
@@ -213,15 +286,25 @@ bool Window::frame() {
   w.viewer->advance();
   w.viewer->eventTraversal();
   if (w.viewer->done() || !w.viewer->isRealized()) return false;
-  w.follow_size();
-  w.carry_out_commands();
-  w.view.advance(std::min(passed, kLongestWait));
-  w.view.update();
-  w.place_camera();
-  if (w.options.show_numbers) w.update_hud();
-  w.draw();
+  w.show(passed);
   return true;
 }
+
+FrameCost Window::frame_after(double seconds) {
+  Impl& w = *impl_;
+  if (w.context && !w.context->make_current()) return {};
+  w.viewer->advance();
+  w.viewer->eventTraversal();
+  Lap lap;
+  FrameCost cost = w.show(seconds);
+  glFinish();
+  cost.draw_ms = lap() - cost.step_ms - cost.update_ms - cost.hud_ms;
+  return cost;
+}
+
+void Window::click(double x, double y) { impl_->view.carry_out(BombCommand{{x, y}}, {}, impl_->aspect()); }
+
+void Window::restart() { impl_->view.carry_out(Action::restart, {}, 1); }
 
 WindowReport Window::run() {
   while (frame()) {
@@ -232,6 +315,7 @@ WindowReport Window::run() {
 }
 
 Image Window::capture() {
+  if (impl_->context && !impl_->context->make_current()) return {};
   impl_->viewer->getCamera()->setFinalDrawCallback(impl_->reader);
   impl_->viewer->renderingTraversals();
   return impl_->reader->image();

@@ -31,6 +31,15 @@ struct WindowReport {
   std::uint64_t uploaded_bytes = 0;
 };
 
+/// What one picture of a window took.
+struct FrameCost {
+  double step_ms = 0;    ///< the world's steps
+  double update_ms = 0;  ///< what changed is copied, normals made anew
+  double hud_ms = 0;     ///< numbers over the picture
+  double draw_ms = 0;    ///< sent and drawn, until the driver says that it is done
+  double all_ms() const { return step_ms + update_ms + hud_ms + draw_ms; }
+};
+
 /// A world that runs in a window with the clock on the wall, and what mouse and keys do to it.
 class Window {
  public:
@@ -38,12 +47,27 @@ class Window {
   /// window could be opened on (key `display`).
   static Result<Window> create(const Scene& scene, std::shared_ptr<const Jobs> jobs, const WindowOptions& options = {});
 
+  /// The same without a display: pictures stay in memory, and nothing but frame_after() draws one. Without a quality in
+  /// `options` it is fast. Fails where OffscreenContext::create does.
+  static Result<Window> create_offscreen(const Scene& scene, std::shared_ptr<const Jobs> jobs,
+                                         const WindowOptions& options = {});
+
   Window(Window&&) noexcept;
   Window& operator=(Window&&) noexcept;
   ~Window();
 
   /// Takes events, lets time pass and draws one picture. False when the window was closed: nothing was drawn.
   bool frame();
+
+  /// Lets `seconds` pass whatever the clock on the wall says, and draws one picture to its end.
+  FrameCost frame_after(double seconds);
+
+  /// Does what a click with the left button does: a bomb on the ground there, -1 to 1 from left to right and from
+  /// bottom to top.
+  void click(double x, double y);
+
+  /// From the scene's start again.
+  void restart();
 
   /// Draws pictures until the window is closed.
   WindowReport run();

@@ -19,6 +19,7 @@ struct WorldNode::Impl {
   Impl(World taken, const WorldNodeOptions& asked) : world(std::move(taken)), options(asked), balls(make_sphere()) {
     style = options.look == NodeLook::divot ? make_divot_style(terrain, balls.root())
                                             : make_application_style(terrain, balls.root(), options);
+    terrain.set_looks(style->looks(world.materials(), world.scene().folder));
   }
 
   void place_models(const Snapshot& snapshot);

@@ -50,6 +50,12 @@ struct Material {
   double blast_drag = 0.94;       ///< Pa s/m, > 0: sets the crater's depth
   double ejecta_share =
       0.185;  ///< share of the crater's volume that lands on lip and blanket, [0, 1); the rest is compacted
+
+  // How pictures show it. The library carries this and computes nothing from it.
+  std::string color = {};    ///< `#rrggbb` as a screen shows it; empty: up to what draws it
+  std::string texture = {};  ///< a PNG or JPEG picture laid out over the ground again and again, in place of `color`;
+                             ///< relative paths start at Scene::folder; empty: none
+  double texture_size = 10;  ///< m of ground that the picture covers along x and y, > 0
 };
 
 /// The presets by name: `paper`, `dry_sand`, `mud`, `asphalt`.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 
 #include "scene/check.h"
@@ -61,6 +62,23 @@ void check_terrain(const Scene& scene, Errors& errors) {
   }
 }
 
+void check_texture(const Scene& scene, const Material& material, Errors& errors) {
+  if (material.texture.empty()) return;
+  std::error_code ignored;
+  const auto path = std::filesystem::path(scene.folder) / material.texture;
+  if (std::filesystem::is_regular_file(path, ignored)) return;
+  errors.push_back({{},
+                    0,
+                    "materials." + material.name + ".texture",
+                    fmt::format("\"{}\" is not a file", material.texture),
+                    "expected a PNG or JPEG picture; relative paths start at the scene's folder"});
+}
+
+bool is_color(const std::string& text) {
+  return text.size() == 7 && text.front() == '#' &&
+         text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+}
+
 void check_materials(const Scene& scene, Errors& errors) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
@@ -70,6 +88,7 @@ void check_materials(const Scene& scene, Errors& errors) {
       errors.push_back({{}, 0, "materials." + material.name, "two materials have this name", "expected unique names"});
     }
     append(errors, contradictions(material, "materials." + material.name));
+    check_texture(scene, material, errors);
   }
 }
 
@@ -107,6 +126,13 @@ Errors contradictions(const Material& m, const std::string& path) {
                       name("kphi", "bekker_kphi"),
                       "0 together with kc = 0 leaves the ground without stiffness",
                       "expected a number > 0, or ground = false"});
+  }
+  if (!m.color.empty() && !is_color(m.color)) {
+    errors.push_back({{},
+                      0,
+                      name("color", "color"),
+                      fmt::format("\"{}\" is no colour", m.color),
+                      "expected red, green and blue as two hexadecimal digits each: \"#8a7a55\""});
   }
   return errors;
 }

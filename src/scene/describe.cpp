@@ -292,6 +292,20 @@ void describe_blast(Visitor& v, Material& m) {
            m.ejecta_share);
 }
 
+void describe_look(Visitor& v, Material& m) {
+  v.text({.name = "color", .meaning = "in pictures, as `#rrggbb`", .default_text = "up to what draws it"}, m.color);
+  v.text({.name = "texture",
+          .meaning = "PNG or JPEG picture that covers the ground in place of `color`; a relative path starts at the "
+                     "scene's folder",
+          .default_text = "none"},
+         m.texture);
+  v.number({.name = "texture_size",
+            .unit = "m",
+            .range = above(0, kLong),
+            .meaning = "of ground that the picture covers each way"},
+           m.texture_size);
+}
+
 }  // namespace
 
 void describe(Visitor& v, Material& material) {
@@ -299,6 +313,7 @@ void describe(Visitor& v, Material& material) {
   describe_ground(v, material);
   describe_loose_soil(v, material);
   describe_blast(v, material);
+  describe_look(v, material);
 }
 
 void describe(Visitor& v, Scene& scene) {

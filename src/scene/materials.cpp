@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "divot/material.h"
+#include "scene/preset_colors.h"
 
 namespace divot {
 namespace {
@@ -116,6 +117,7 @@ Material material_of(const Soil& soil) {
   const double strength = ratio * ratio * ratio;
   m.blast_strength = paper.blast_strength * strength;
   m.blast_drag = paper.blast_drag * strength * kPaperDepth / soil.crater_depth;
+  m.color = scene::preset_color(soil.name);
   return m;
 }
 

@@ -19,7 +19,8 @@ enum class NodeLook : std::uint8_t {
 struct WorldNodeOptions {
   NodeLook look = NodeLook::application;
   int most_steps = 4;  ///< in one update, >= 1; what they cannot catch up with is dropped: simulated time lags then
-  // Colours of NodeLook::application, red, green, blue and opacity, each 0 to 1.
+  // Colours of NodeLook::application, red, green, blue and opacity, each 0 to 1. Materials with a colour or texture of
+  // their own have those.
   osg::Vec4 soil = {0.48f, 0.45f, 0.28f, 1};    ///< that nothing has touched
   osg::Vec4 turned = {0.30f, 0.22f, 0.14f, 1};  ///< that was sunk, thrown or rolled over
   osg::Vec4 body = {0.80f, 0.80f, 0.78f, 1};
