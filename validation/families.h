@@ -14,6 +14,7 @@ Result<std::vector<Experiment>> crater_shots(const Places& places);
 Result<std::vector<Experiment>> crater_burst(const Places& places);
 Result<std::vector<Experiment>> sphere(const Places& places);
 Result<std::vector<Experiment>> drop(const Places& places);
+Result<std::vector<Experiment>> repose(const Places& places);
 Result<std::vector<Experiment>> permanence(const Places& places);
 Result<std::vector<Experiment>> resolution(const Places& places);
 Result<std::vector<Experiment>> soil_balance(const Places& places);

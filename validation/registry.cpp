@@ -12,6 +12,7 @@ std::span<const Family> families() {
       {"crater_shots", "single measured craters", "", &crater_shots},
       {"sphere", "a sphere at rest, by soil, mass and spacing", "", &sphere},
       {"drop", "a dropped sphere, by height and density", kDrop, &drop},
+      {"repose", "slopes of loose soil at rest", "", &repose},
       {"permanence", "ruts and craters stay", "", &permanence},
       {"resolution", "what halving the spacing or the step changes", "", &resolution},
       {"soil_balance", "where the soil of every scene went", "", &soil_balance},
