@@ -11,6 +11,7 @@
 #include "divot/scene.h"
 #include "scene/keys.h"
 #include "scene/nearest.h"
+#include "scene/visitor.h"
 #include "source_dir.h"
 
 namespace divot {
@@ -224,8 +225,15 @@ TEST(Scene, NamesBodiesAroundNamesThatAreTaken) {
 /// A line of a scene and the error it must give, without file and line.
 struct Wrong {
   const char* text;
-  const char* error;
+  std::string error;
 };
+
+/// The presets as an error lists them.
+const std::string kPresets = [] {
+  std::vector<std::string> names;
+  for (const Material& preset : material_presets()) names.push_back(preset.name);
+  return scene::one_of(names);
+}();
 
 TEST(SceneErrors, SayWhatIsWrongAndWhatWouldBeRight) {
   const Wrong cases[] = {
@@ -254,8 +262,7 @@ TEST(SceneErrors, SayWhatIsWrongAndWhatWouldBeRight) {
        "\"change.tif\", \"sinkage.tif\" or \"height.png\""},
       {"output.formats = [\"ply\", \"ply\"]", "output.formats[1]: \"ply\" is there twice; expected each once"},
       {"bodies = 5", "bodies: 5 is a number; expected tables headed [[bodies]]"},
-      {"materials.a.base = \"b\"",
-       "materials.a.base: there is no material \"b\"; expected \"paper\", \"dry_sand\", \"mud\" or \"asphalt\""},
+      {"materials.a.base = \"b\"", "materials.a.base: there is no material \"b\"; expected " + kPresets},
       {"materials.a.color = \"#12345g\"",
        "materials.a.color: \"#12345g\" is no colour; expected red, green and blue as two hexadecimal digits each: "
        "\"#8a7a55\""},
@@ -289,8 +296,7 @@ TEST(SceneErrors, OfTerrain) {
        "terrain.grid.columns: 3000000000 is out of range; expected an integer >= 2 and <= 1000000"},
       {"dem = \"\"", "terrain.dem: is empty; expected the name of a raster file"},
       {"mesh = \"rock.obj\"", "terrain.mesh: meshes are not supported; this version reads grid and dem"},
-      {"dem = \"a.tif\"\nmaterial = \"sol\"",
-       "terrain.material: there is no material \"sol\"; expected \"paper\", \"dry_sand\", \"mud\" or \"asphalt\""},
+      {"dem = \"a.tif\"\nmaterial = \"sol\"", "terrain.material: there is no material \"sol\"; expected " + kPresets},
       {"grid = { columns = 3, rows = 3, spacing = 1 }\ncrs = \"x\"",
        "terrain.crs: means something only beside dem; expected it left out with grid"},
       {"grid = { columns = 3, rows = 3, spacing = 1 }\ndem = \"x\"",

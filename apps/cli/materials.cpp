@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <string>
 
 #include "cli/commands.h"
 #include "divot/material.h"
@@ -58,18 +60,35 @@ void print_json() {
   fmt::print("{}\n", Json{{"units", units}, {"materials", materials}}.dump(2));
 }
 
+// Four digits, and 1.528e6 instead of 1.528e+06.
+std::string short_number(double value) {
+  std::string text = fmt::format("{:.4g}", value);
+  if (const auto e = text.find('e'); e != std::string::npos) {
+    while (text[e + 1] == '+' || text[e + 1] == '0') text.erase(e + 1, 1);
+  }
+  return text;
+}
+
 template <class Cell>
-void print_row(const char* key, const char* unit, Cell cell) {
+void print_row(const char* key, const char* unit, std::span<const Material> materials, Cell cell) {
   fmt::print("{:<21}{:<11}", key, unit);
-  for (const Material& material : material_presets()) fmt::print("{:>11}", cell(material));
+  for (const Material& material : materials)
+    fmt::print("{:>{}}", cell(material), std::max<std::size_t>(material.name.size() + 2, 9));
   fmt::print("\n");
 }
 
+// Seven presets side by side are as many as a terminal of 110 columns holds.
 void print_table() {
-  print_row("", "unit", [](const Material& m) { return m.name; });
-  for (const Field& field : kFields)
-    print_row(field.key, field.unit, [&](const Material& m) { return fmt::format("{:.4g}", m.*field.value); });
-  print_row("ground", "", [](const Material& m) { return m.ground; });
+  constexpr std::size_t kSideBySide = 7;
+  for (std::span<const Material> left = material_presets(); !left.empty();) {
+    const std::span<const Material> now = left.first(std::min(kSideBySide, left.size()));
+    print_row("", "unit", now, [](const Material& m) { return m.name; });
+    for (const Field& field : kFields)
+      print_row(field.key, field.unit, now, [&](const Material& m) { return short_number(m.*field.value); });
+    print_row("ground", "", now, [](const Material& m) { return m.ground ? "true" : "false"; });
+    left = left.subspan(now.size());
+    if (!left.empty()) fmt::print("\n");
+  }
 }
 
 }  // namespace

@@ -58,7 +58,8 @@ struct Material {
   double texture_size = 10;  ///< m of ground that the picture covers along x and y, > 0
 };
 
-/// The presets by name: `paper`, `dry_sand`, `mud`, `asphalt`.
+/// The presets by name: `paper`, the medium of the paper, then `dry_sand`, `lete_sand`, `sandy_loam`, `clay_dry`,
+/// `clay_wet`, `mud`, `snow`, `wheat_field`, `gravel`, `lunar_regolith`, `asphalt`, `concrete` and `rock`.
 std::span<const Material> material_presets();
 
 /// The preset of that name, or nullptr.
