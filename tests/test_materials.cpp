@@ -110,6 +110,7 @@ TEST(Materials, CheckNamesTheFieldThatIsWrong) {
   EXPECT_EQ(first_key({.density = 0}), "density");
   EXPECT_EQ(first_key({.compaction_limit = 1}), "compaction_limit");
   EXPECT_EQ(first_key({.repose_angle_deg = 90}), "repose_angle_deg");
+  EXPECT_EQ(first_key({.over = "mud", .over_thickness = 0}), "over.thickness");
   EXPECT_EQ(first_key({.ejecta_share = 1}), "ejecta_share");
   EXPECT_EQ(first_key({.cohesion = std::numeric_limits<double>::quiet_NaN()}), "cohesion");
   EXPECT_EQ(first_key({.elastic_stiffness = std::numeric_limits<double>::infinity()}), "elastic_stiffness");

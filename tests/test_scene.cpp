@@ -30,9 +30,14 @@ crs = "EPSG:4326"
 band = 2
 material = "field"
 max_vertices = 1000
+[terrain.material_map]
+image = "zones.png"
+crs = "EPSG:3857"
+legend = { 0 = "loam", -7 = "mud" }
 [materials.field]
 base = "loam"
 kphi = 3e6
+over = { material = "mud", thickness = 0.25 }
 [materials.loam]
 base = "mud"
 reference_spacing = 2
@@ -54,6 +59,9 @@ cohesion = 12
 friction_angle_deg = 13
 shear_modulus = 0.1
 restitution = 0.2
+density = 1234
+compaction_limit = 0.4
+repose_angle_deg = 21
 blast_strength = 14
 blast_drag = 15
 ejecta_share = 0.3
@@ -130,6 +138,12 @@ TEST(Scene, ReadsEveryKey) {
   EXPECT_EQ(dem.band, 2);
   EXPECT_EQ(s.terrain.material, "field");
   EXPECT_EQ(s.terrain.max_vertices, 1000u);
+  EXPECT_EQ(s.terrain.material_map.image, "zones.png");
+  EXPECT_EQ(s.terrain.material_map.crs, "EPSG:3857");
+  ASSERT_EQ(s.terrain.material_map.legend.size(), 2u);
+  EXPECT_EQ(s.terrain.material_map.legend[0].pixel, -7);
+  EXPECT_EQ(s.terrain.material_map.legend[0].material, "mud");
+  EXPECT_EQ(s.terrain.material_map.legend[1].pixel, 0);
 
   ASSERT_EQ(s.bodies.size(), 2u);
   EXPECT_EQ(s.bodies[0].name, "ball");
@@ -173,15 +187,33 @@ TEST(Scene, MaterialsInheritWhateverTheirOrder) {
   EXPECT_EQ(loam.name, "loam");
   EXPECT_EQ(field.name, "field");
   // Every key of the material reaches its own field.
-  const double values[] = {loam.reference_spacing,   loam.particle_mass,        loam.dissociation_energy,
-                           loam.attraction_exponent, loam.repulsion_exponent,   loam.spring_stiffness,
-                           loam.yield_strain,        loam.viscous_damping,      loam.global_damping,
-                           loam.bekker_kc,           loam.bekker_kphi,          loam.bekker_n,
-                           loam.elastic_stiffness,   loam.ground_damping_ratio, loam.cohesion,
-                           loam.friction_angle_deg,  loam.shear_modulus,        loam.restitution,
-                           loam.blast_strength,      loam.blast_drag,           loam.ejecta_share,
+  const double values[] = {loam.reference_spacing,
+                           loam.particle_mass,
+                           loam.dissociation_energy,
+                           loam.attraction_exponent,
+                           loam.repulsion_exponent,
+                           loam.spring_stiffness,
+                           loam.yield_strain,
+                           loam.viscous_damping,
+                           loam.global_damping,
+                           loam.bekker_kc,
+                           loam.bekker_kphi,
+                           loam.bekker_n,
+                           loam.elastic_stiffness,
+                           loam.ground_damping_ratio,
+                           loam.cohesion,
+                           loam.friction_angle_deg,
+                           loam.shear_modulus,
+                           loam.restitution,
+                           loam.blast_strength,
+                           loam.blast_drag,
+                           loam.ejecta_share,
+                           loam.density,
+                           loam.compaction_limit,
+                           loam.repose_angle_deg,
                            loam.texture_size};
-  const double written[] = {2, 3, 4, 3, 5, 6, 0.1, 7, 8, 9, 10, 0.9, 11, 0.5, 12, 13, 0.1, 0.2, 14, 15, 0.3, 4};
+  const double written[] = {2,   3,  4,  3,   5,   6,  0.1, 7,   8,    9,   10, 0.9, 11,
+                            0.5, 12, 13, 0.1, 0.2, 14, 15,  0.3, 1234, 0.4, 21, 4};
   EXPECT_EQ(loam.color, "#8a7a55");
   EXPECT_EQ(loam.texture, "/proc/self/exe");
   for (std::size_t i = 0; i < std::size(values); ++i) EXPECT_EQ(values[i], written[i]) << i;
@@ -303,8 +335,23 @@ TEST(SceneErrors, OfTerrain) {
        "terrain: holds grid and dem at once; expected one of them"},
       {"dem = \"x\"\nrefine = { min_edge = 1 }",
        "terrain.refine: refinement is not supported; this version keeps the triangles the terrain starts with"},
-      {"dem = \"x\"\nmaterial_map = {}",
-       "terrain.material_map: material maps are not supported; this version knows one material for the whole terrain"},
+      {"dem = \"x\"\nmaterial_map = 3",
+       "terrain.material_map: 3 is a number; expected material_map = { image = \"road.png\", legend = { 0 = \"field\", "
+       "255 = \"asphalt\" } }"},
+      {"dem = \"x\"\nmaterial_map = { image = \"a.png\" }",
+       "terrain.material_map.legend: is missing; expected a table as { 0 = \"field\", 255 = \"asphalt\" }"},
+      {"dem = \"x\"\nmaterial_map = { image = \"a.png\", legend = { \"1.5\" = \"mud\" } }",
+       "terrain.material_map.legend.1.5: no value of a pixel; expected an integer, or a colour as \"#8a6f4d\""},
+      {"dem = \"x\"\nmaterial_map = { image = \"a.png\", legend = { \"#12345\" = \"mud\" } }",
+       "terrain.material_map.legend.#12345: no value of a pixel; expected an integer, or a colour as \"#8a6f4d\""},
+      {"dem = \"x\"\nmaterial_map = { image = \"a.png\", legend = { 1 = 2 } }",
+       "terrain.material_map.legend.1: 2 is a number; expected the name of a material in quotes"},
+      {"dem = \"x\"\nmaterial_map = { image = \"a.png\", legend = { 1 = \"sol\" } }",
+       "terrain.material_map.legend.1: there is no material \"sol\"; expected " + kPresets},
+      {"dem = \"x\"\nmaterial_map = { image = \"a.png\", legend = { 1 = \"mud\", \"#112233\" = \"rock\" } }",
+       "terrain.material_map.legend.1: numbers and colours in one legend; expected all of one kind"},
+      {"dem = \"x\"\nmaterial_map = { image = \"\", legend = { 1 = \"mud\" } }",
+       "terrain.material_map.image: is empty; expected the name of an image or raster"},
   };
   for (const Wrong& wrong : cases) {
     const Result<Scene> scene = parse_scene(std::string("[terrain]\n") + wrong.text, "");

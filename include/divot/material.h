@@ -44,6 +44,10 @@ struct Material {
   double compaction_limit = 0.3;   ///< largest share of its volume that the soil can lose by compaction, [0, 1)
   double repose_angle_deg = 45.0;  ///< slopes of loose soil at rest are no steeper, degrees, (0, 89]
 
+  // A crust over something softer: until it breaks, the ground answers as this material does, then as what lies below.
+  std::string over = {};        ///< a name in Scene::materials or of a preset; empty: this material all the way down
+  double over_thickness = 0.1;  ///< m of this material above it, > 0; means nothing without `over`
+
   // What a blast meets (scaled blast, docs/physics.md): the soil fails where the pressure exceeds its strength and
   // flows against its drag.
   double blast_strength = 985.0;  ///< Pa, > 0: sets the crater's width

@@ -39,12 +39,32 @@ struct MeshTerrain {
   /// [3 * triangle] indices of vertices, counter-clockwise from above. Neighbours share vertices: equal positions are
   /// not joined. One height at each place: no vertical faces, no overhangs, no second layer.
   std::vector<std::uint32_t> triangles = {};
+  /// [vertex] index into Scene::materials; empty: TerrainSource::material everywhere.
+  std::vector<std::uint8_t> materials = {};
+};
+
+/// What some pixels of a material map stand for.
+struct LegendEntry {
+  bool color = false;  ///< the pixel is a colour, 0xrrggbb, else the value of the first band
+  std::int64_t pixel = 0;
+  std::string material = {};  ///< a name in Scene::materials or of a preset
+
+  std::string text() const;  ///< the pixel as a scene file writes it
+};
+
+/// Which material is where: an image or any raster that GDAL reads. The nearest pixel decides, so that borders are
+/// sharp. One that says where it lies is placed there; others are stretched over the terrain, first row to the north.
+struct MaterialMap {
+  std::string image = {};  ///< relative paths start at the scene file's folder
+  std::string crs = {};    ///< what its coordinates are, where it cannot say; empty: what it says, or the `dem`'s
+  std::vector<LegendEntry> legend = {};  ///< every value that the image holds, and no other; empty: no map
 };
 
 /// Where the ground comes from and what it is made of.
 struct TerrainSource {
   std::variant<GridTerrain, DemTerrain, MeshTerrain> shape = GridTerrain{};
   std::string material = "paper";           ///< a name in Scene::materials or of a preset
+  MaterialMap material_map = {};            ///< where the ground is made of something else
   std::uint64_t max_vertices = 20'000'000;  ///< a larger terrain is refused before memory is taken
 };
 
@@ -107,6 +127,9 @@ Result<Scene> load_scene(const std::string& path, const std::vector<Override>& o
 
 /// The same from text; `file` is what errors call it, and relative paths start at its folder.
 Result<Scene> parse_scene(std::string_view text, const std::string& file, const std::vector<Override>& overrides = {});
+
+/// The material of that name: one of the scene's own, else a preset, else nullptr.
+const Material* find_material(const Scene& scene, std::string_view name);
 
 /// What is out of range or contradictory in a scene made in code; empty when it can run.
 Errors check(const Scene& scene);

@@ -3,6 +3,7 @@
 
 #include "events/events.h"
 #include "laws/blast.h"
+#include "laws/crust.h"
 
 namespace divot::events {
 namespace {
@@ -53,10 +54,27 @@ Vec3 into_ground(const state::Surface& surface, const std::vector<Target>& reach
   return mean.z > 0 ? -mean : Vec3{0, 0, -1};
 }
 
+// What this charge breaks of the crusts around it is gone before the ground below answers.
+void break_crusts(const Bomb& bomb, double height, const state::Blast& blast, state::Surface& surface,
+                  const geometry::Bvh& bvh, std::span<const laws::Medium> media, state::RegionScratch& scratch) {
+  std::vector<double> radius(media.size(), 0.0);
+  for (std::size_t m = 0; m < media.size(); ++m) {
+    if (media[m].below != laws::kNoLayer)
+      radius[m] = laws::broken_radius(media[m], media[media[m].below], bomb.yield, height);
+  }
+  const double furthest = *std::max_element(radius.begin(), radius.end());
+  if (furthest <= 0) return;
+  for (const Target& t : targets(blast, furthest, surface, bvh, scratch)) {
+    std::uint8_t& material = surface.material[t.vertex];
+    while (t.radius < radius[material]) material = media[material].below;
+  }
+}
+
 // Cube-root scaled model: ground flows where the pressure exceeds its strength, and what is thrown out lands around it.
 void push_scaled(const Bomb& bomb, double height, state::Blast& blast, state::Surface& surface, state::Soil& soil,
                  const geometry::Bvh& bvh, std::span<const laws::Medium> media, std::uint32_t zero,
                  state::RegionScratch& scratch) {
+  break_crusts(bomb, height, blast, surface, bvh, media, scratch);
   const double strength = media[surface.material[zero]].blast_strength;
   double weakest = strength;
   for (const laws::Medium& m : media) weakest = std::min<double>(weakest, m.blast_strength);

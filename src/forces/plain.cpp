@@ -8,8 +8,13 @@ namespace {
 
 using state::Bonds;
 
-// Cohesion of all bonds of particle i. Of two materials the weaker holds the bond; the order of the pair does not
+// Of two materials the weaker holds the bond, of two equally stiff ones the first: the order of the pair does not
 // matter.
+bool holds_bond(const Terms& a, const Terms& b) {
+  return a.bond_stiffness < b.bond_stiffness || (a.bond_stiffness == b.bond_stiffness && &a < &b);
+}
+
+// Cohesion of all bonds of particle i.
 Sum<float> sum_bonds(const Arrays& a, std::size_t i) {
   const Terms& own = a.terms[a.material[i]];
   Sum<float> sum{0, 0, 0};
@@ -19,7 +24,7 @@ Sum<float> sum_bonds(const Arrays& a, std::size_t i) {
     float& r0 = a.rest_length[e];
     if (r0 < 0) continue;
     const Terms& other = a.terms[a.material[j]];
-    const Terms& t = other.bond_stiffness < own.bond_stiffness ? other : own;
+    const Terms& t = holds_bond(other, own) ? other : own;
     Pair<float> p{a.x[i] - a.x[j],   a.y[i] - a.y[j],   a.z[i] - a.z[j],  0,
                   a.vx[j] - a.vx[i], a.vy[j] - a.vy[i], a.vz[j] - a.vz[i]};
     p.r_squared = squared_length(p.dx, p.dy, p.dz);

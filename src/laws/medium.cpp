@@ -29,6 +29,7 @@ Medium make_medium(const Material& material) {
            .density = f(material.density),
            .compaction_limit = f(material.compaction_limit),
            .tan_repose = f(std::tan(material.repose_angle_deg * kDegree)),
+           .thickness = f(material.over_thickness),
            .blast_strength = f(material.blast_strength),
            .blast_drag = f(material.blast_drag),
            .ejecta_share = f(material.ejecta_share)};

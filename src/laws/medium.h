@@ -1,10 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 
 #include "divot/material.h"
 
 namespace divot::laws {
+
+/// Medium::below of one that is the same all the way down.
+inline constexpr std::uint8_t kNoLayer = 255;
 
 /// A material as the stages use it: per unit of area, in floats. Made once from the checked Material.
 struct Medium {
@@ -28,9 +32,11 @@ struct Medium {
   float restitution = 0;
   float density = 1;  ///< kg/m^3
   float compaction_limit = 0;
-  float tan_repose = 1;      ///< steepest slope of loose soil at rest
-  float blast_strength = 0;  ///< Pa
-  float blast_drag = 0;      ///< Pa s/m
+  float tan_repose = 1;           ///< steepest slope of loose soil at rest
+  std::uint8_t below = kNoLayer;  ///< index of the medium that this one is a crust over; world/ sets it
+  float thickness = 0;            ///< m of crust
+  float blast_strength = 0;       ///< Pa
+  float blast_drag = 0;           ///< Pa s/m
   float ejecta_share = 0;
 
   /// Stiffest a bond can be, N/m: the curvature of eq. 6 at rest, e0 m n / r0^2, or eq. 1's.

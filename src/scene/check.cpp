@@ -33,6 +33,7 @@ class Checker : public Visitor {
       note(Error{{}, 0, name(key), fmt::format("\"{}\" is not known", value), "expected " + one_of(names)});
     }
   }
+  void legend(const Key&, std::vector<LegendEntry>&) override {}
   void policy(const Key& key, UpdatePolicy& value) override {
     if (value.kind != UpdatePolicy::Kind::every) return;
     note(out_of_range(name(key) + ".every", kEvery, std::int64_t{value.steps}));

@@ -32,6 +32,18 @@ void check_time(const Scene& scene, Errors& errors) {
   }
 }
 
+// Whether there is a material of that name: one of the scene's own or a preset.
+bool check_name(const Scene& scene, const std::string& name, const std::string& key, Errors& errors) {
+  if (find_material(scene, name) != nullptr) return true;
+  std::vector<std::string> known;
+  for (const Material& material : scene.materials) known.push_back(material.name);
+  for (const Material& preset : material_presets()) {
+    if (std::find(known.begin(), known.end(), preset.name) == known.end()) known.push_back(preset.name);
+  }
+  errors.push_back({{}, 0, key, fmt::format("there is no material \"{}\"", name), "expected " + one_of(known)});
+  return false;
+}
+
 void check_terrain(const Scene& scene, Errors& errors) {
   const TerrainSource& terrain = scene.terrain;
   if (const auto* grid = std::get_if<GridTerrain>(&terrain.shape)) {
@@ -47,18 +59,76 @@ void check_terrain(const Scene& scene, Errors& errors) {
   if (const auto* dem = std::get_if<DemTerrain>(&terrain.shape); dem != nullptr && dem->path.empty()) {
     errors.push_back({{}, 0, "terrain.dem", "is empty", "expected the name of a raster file"});
   }
-  // The material: one of the scene's own or a preset.
-  std::vector<std::string> known;
-  for (const Material& material : scene.materials) known.push_back(material.name);
-  for (const Material& preset : material_presets()) {
-    if (std::find(known.begin(), known.end(), preset.name) == known.end()) known.push_back(preset.name);
+  check_name(scene, terrain.material, "terrain.material", errors);
+}
+
+// The same pixel twice, or numbers beside colours, and materials that are not there.
+void check_map(const Scene& scene, Errors& errors) {
+  const MaterialMap& map = scene.terrain.material_map;
+  constexpr std::size_t kMostEntries = 200;
+  const std::string path = "terrain.material_map.legend";
+  if (map.legend.empty()) return;
+  if (map.image.empty()) {
+    errors.push_back({{}, 0, "terrain.material_map.image", "is empty", "expected the name of an image or raster"});
   }
-  if (std::find(known.begin(), known.end(), terrain.material) == known.end()) {
+  if (map.legend.size() > kMostEntries) {
     errors.push_back({{},
                       0,
-                      "terrain.material",
-                      fmt::format("there is no material \"{}\"", terrain.material),
-                      "expected " + one_of(known)});
+                      path,
+                      fmt::format("has {} entries", map.legend.size()),
+                      fmt::format("expected at most {}", kMostEntries)});
+  }
+  for (std::size_t i = 0; i < map.legend.size(); ++i) {
+    const LegendEntry& entry = map.legend[i];
+    const std::string key = path + "." + entry.text();
+    check_name(scene, entry.material, key, errors);
+    if (entry.color != map.legend[0].color) {
+      errors.push_back({{}, 0, key, "numbers and colours in one legend", "expected all of one kind"});
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (map.legend[j].pixel != entry.pixel || map.legend[j].color != entry.color) continue;
+      errors.push_back({{}, 0, key, "is there twice", "expected each pixel once"});
+    }
+  }
+}
+
+void check_mesh_materials(const Scene& scene, Errors& errors) {
+  const auto* mesh = std::get_if<MeshTerrain>(&scene.terrain.shape);
+  if (mesh == nullptr || mesh->materials.empty()) return;
+  const auto refuse = [&](std::string problem, std::string expected) {
+    errors.push_back({{}, 0, "terrain.mesh.materials", std::move(problem), std::move(expected)});
+  };
+  if (!scene.terrain.material_map.legend.empty()) {
+    refuse("stands beside a material map", "expected one of them");
+  }
+  if (mesh->materials.size() != mesh->vertices.size()) {
+    return refuse(fmt::format("holds {} for {} vertices", mesh->materials.size(), mesh->vertices.size()),
+                  "expected one for every vertex, or none");
+  }
+  for (std::size_t v = 0; v < mesh->materials.size(); ++v) {
+    if (mesh->materials[v] < scene.materials.size()) continue;
+    return refuse(fmt::format("vertex {} has the material {}, and the scene defines {}", v, mesh->materials[v],
+                              scene.materials.size()),
+                  "expected an index into Scene::materials");
+  }
+}
+
+// A crust over something that is there, and that does not come back to it.
+void check_layers(const Scene& scene, Errors& errors) {
+  for (const Material& material : scene.materials) {
+    if (material.over.empty()) continue;
+    const std::string key = "materials." + material.name + ".over.material";
+    if (!check_name(scene, material.over, key, errors)) continue;
+    const Material* below = find_material(scene, material.over);
+    for (std::size_t depth = 0; below != nullptr && !below->over.empty() && depth < scene.materials.size(); ++depth)
+      below = below->name == material.name ? nullptr : find_material(scene, below->over);
+    if (below == nullptr || !below->over.empty() || below->name == material.name) {
+      errors.push_back({{},
+                        0,
+                        key,
+                        fmt::format("the layers below {} lead back to it or to each other", material.name),
+                        "expected layers that end at a material without one below"});
+    }
   }
 }
 
@@ -141,7 +211,10 @@ Errors contradictions(const Scene& scene) {
   Errors errors;
   check_time(scene, errors);
   check_terrain(scene, errors);
+  check_map(scene, errors);
+  check_mesh_materials(scene, errors);
   check_materials(scene, errors);
+  check_layers(scene, errors);
   check_bodies(scene, errors);
   return errors;
 }

@@ -58,15 +58,32 @@ void describe_dem(Visitor& v, DemTerrain& dem) {
   v.whole({.name = "band", .range = between(1, 65535), .meaning = "band of the `dem` that holds heights"}, dem.band);
 }
 
+void describe_map(Visitor& v, MaterialMap& map) {
+  v.table({.name = "material_map",
+           .example = "material_map = { image = \"road.png\", legend = { 0 = \"field\", 255 = \"asphalt\" } }"},
+          [&] {
+            v.text({.name = "image",
+                    .meaning = "image or raster in a format GDAL reads; a relative path starts at the scene's folder",
+                    .required = true},
+                   map.image);
+            v.text({.name = "crs",
+                    .meaning = "coordinate system of an `image` that cannot say it itself, as `EPSG:4326`",
+                    .default_text = "what the image says, else `terrain.crs`"},
+                   map.crs);
+            v.legend({.name = "legend",
+                      .meaning = "material of each value that the image holds: of its first band, or `\"#rrggbb\"`",
+                      .required = true},
+                     map.legend);
+          });
+}
+
 void describe_terrain(Visitor& v, TerrainSource& terrain) {
   static constexpr const char* kMesh[] = {"mesh"};
-  static constexpr const char* kMap[] = {"material_map"};
   static constexpr const char* kRefine[] = {"refine"};
   static constexpr const char* kDemOnly[] = {"crs", "spacing", "band"};
   static constexpr Branch kShapes[] = {{"grid", {}, "grid = { columns = 37, rows = 40, spacing = 10.9 }"},
                                        {"dem", kDemOnly, "dem = \"file.tif\""}};
   v.unsupported({kMesh, "meshes are not supported", "this version reads grid and dem"});
-  v.unsupported({kMap, "material maps are not supported", "this version knows one material for the whole terrain"});
   v.unsupported({kRefine, "refinement is not supported", "this version keeps the triangles the terrain starts with"});
   for (const std::size_t shape : v.branches(kShapes, terrain.shape.index())) {
     if (shape == 0) describe_grid(v, as<GridTerrain>(terrain.shape));
@@ -75,6 +92,7 @@ void describe_terrain(Visitor& v, TerrainSource& terrain) {
   }
   v.text({.name = "material", .meaning = "what the ground is made of: a preset or a material of the file"},
          terrain.material);
+  describe_map(v, terrain.material_map);
   v.whole({.name = "max_vertices",
            .range = between(4, kMostVertices),
            .meaning = "a larger terrain is refused before memory is taken"},
@@ -275,6 +293,17 @@ void describe_loose_soil(Visitor& v, Material& m) {
            m.repose_angle_deg);
 }
 
+void describe_layer(Visitor& v, Material& m) {
+  v.table({.name = "over", .example = "over = { material = \"clay_wet\", thickness = 0.1 }"}, [&] {
+    v.text({.name = "material",
+            .meaning = "what lies below this crust: a preset or a material of the file",
+            .required = true},
+           m.over);
+    v.number({.name = "thickness", .unit = "m", .range = above(0, kLong), .meaning = "of the crust", .required = true},
+             m.over_thickness);
+  });
+}
+
 void describe_blast(Visitor& v, Material& m) {
   v.number({.name = "blast_strength",
             .unit = "Pa",
@@ -312,6 +341,7 @@ void describe(Visitor& v, Material& material) {
   describe_particles(v, material);
   describe_ground(v, material);
   describe_loose_soil(v, material);
+  describe_layer(v, material);
   describe_blast(v, material);
   describe_look(v, material);
 }

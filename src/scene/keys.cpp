@@ -39,6 +39,7 @@ class Lister : public Visitor {
     add(key, "list of text", "[]");
     keys.back().range = "of " + words(names);
   }
+  void legend(const Key& key, std::vector<LegendEntry>&) override { add(key, "table of text", ""); }
   void policy(const Key& key, UpdatePolicy&) override {
     add(key, "text or table", "\"adaptive\"");
     keys.back().range = "`\"adaptive\"`, `\"every_step\"`, `{ every = 10 }` (steps, an integer >= 1)";

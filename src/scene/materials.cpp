@@ -1,9 +1,12 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <vector>
 
 #include "divot/material.h"
+#include "divot/scene.h"
 #include "scene/preset_colors.h"
 #include "scene/soils.h"
 
@@ -67,6 +70,17 @@ std::span<const Material> material_presets() {
     return all;
   }();
   return presets;
+}
+
+const Material* find_material(const Scene& scene, std::string_view name) {
+  for (const Material& material : scene.materials) {
+    if (material.name == name) return &material;
+  }
+  return find_preset(name);
+}
+
+std::string LegendEntry::text() const {
+  return color ? fmt::format("#{:06x}", static_cast<std::uint32_t>(pixel)) : fmt::format("{}", pixel);
 }
 
 const Material* find_preset(std::string_view name) {

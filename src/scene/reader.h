@@ -32,6 +32,7 @@ class Reader : public Visitor {
   void place(const Key& position, const Key& above_ground, Vec3d& value, bool& above) override;
   void option(const Key& key, Names names, std::size_t& index) override;
   void options(const Key& key, Names names, std::vector<std::string>& values) override;
+  void legend(const Key& key, std::vector<LegendEntry>& entries) override;
   void policy(const Key& key, UpdatePolicy& value) override;
   void base(const Key& key, Material& material, std::span<const Material> earlier) override;
   std::vector<std::size_t> branches(std::span<const Branch> all, std::size_t current) override;

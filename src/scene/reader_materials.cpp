@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include "scene/reader.h"
 
@@ -16,7 +17,42 @@ std::optional<std::string> base_of(const toml::table& materials, const std::stri
   return materials[name]["base"].value<std::string>();
 }
 
+/// A legend's key: an integer, or `#` and six hexadecimal digits.
+std::optional<LegendEntry> pixel_of(std::string_view key) {
+  LegendEntry entry{.color = !key.empty() && key[0] == '#'};
+  const std::string_view digits = entry.color ? key.substr(1) : key;
+  const char* end = digits.data() + digits.size();
+  const auto [stop, code] = std::from_chars(digits.data(), end, entry.pixel, entry.color ? 16 : 10);
+  const bool whole = code == std::errc{} && stop == end && !digits.empty();
+  if (!whole || (entry.color && (digits.size() != 6 || entry.pixel < 0))) return std::nullopt;
+  return entry;
+}
+
 }  // namespace
+
+void Reader::legend(const Key& key, std::vector<LegendEntry>& entries) {
+  const std::string expected = "expected a table as { 0 = \"field\", 255 = \"asphalt\" }";
+  const toml::node* node = find(key, expected);
+  if (node == nullptr) return;
+  const toml::table* table = node->as_table();
+  if (table == nullptr) return error_at(node, path_to(key.name), described(*node), expected);
+  if (table->empty()) return error_at(node, path_to(key.name), "is empty", expected);
+  entries.clear();
+  for (const auto& [pixel, name] : *table) {
+    std::optional<LegendEntry> entry = pixel_of(pixel.str());
+    const std::string path = path_to(key.name) + "." + (entry ? entry->text() : std::string(pixel.str()));
+    places_[path] = name.source();
+    const auto* material = name.as_string();
+    if (!entry) {
+      error_at(&name, path, "no value of a pixel", "expected an integer, or a colour as \"#8a6f4d\"");
+    } else if (material == nullptr) {
+      error_at(&name, path, described(name), "expected the name of a material in quotes");
+    } else {
+      entry->material = material->get();
+      entries.push_back(std::move(*entry));
+    }
+  }
+}
 
 std::vector<std::string> Reader::material_names(std::span<const Material>) {
   const toml::table* table = frames_.back().table;

@@ -70,6 +70,8 @@ class Visitor {
   virtual void place(const Key& position, const Key& above_ground, Vec3d& value, bool& above) = 0;
   virtual void option(const Key& key, Names names, std::size_t& index) = 0;
   virtual void options(const Key& key, Names names, std::vector<std::string>& values) = 0;
+  /// A table from pixels to names.
+  virtual void legend(const Key& key, std::vector<LegendEntry>& entries) = 0;
   virtual void policy(const Key& key, UpdatePolicy& value) = 0;
   /// What a material starts from: one of `earlier`, or a preset.
   virtual void base(const Key& key, Material& material, std::span<const Material> earlier) = 0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "terrain/material_map.h"
 #include "terrain/terrain.h"
 #include "world/state.h"
 
@@ -13,10 +14,32 @@ namespace {
 // Boxes of the BVH are larger than their faces by this share of the spacing, so that most steps need no refit.
 constexpr float kMargin = 0.1f;
 
-const Material* find_material(const Scene& scene, const std::string& name) {
-  for (const Material& m : scene.materials)
-    if (m.name == name) return &m;
-  return find_preset(name);
+// Every material that the scene's ground is made of, the terrain's own first, and below it what it is a crust over.
+std::vector<Material> materials_in_use(const Scene& scene) {
+  std::vector<Material> used;
+  const auto use = [&](const std::string& name) {
+    if (std::ranges::find(used, name, &Material::name) == used.end()) used.push_back(*find_material(scene, name));
+  };
+  use(scene.terrain.material);
+  for (const LegendEntry& entry : scene.terrain.material_map.legend) use(entry.material);
+  if (const auto* mesh = std::get_if<MeshTerrain>(&scene.terrain.shape)) {
+    for (const std::uint8_t index : mesh->materials) use(scene.materials[index].name);
+  }
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i].over.empty()) use(std::string(used[i].over));
+  }
+  return used;
+}
+
+std::vector<laws::Medium> media_of(const std::vector<Material>& materials) {
+  std::vector<laws::Medium> media;
+  for (const Material& material : materials) {
+    media.push_back(laws::make_medium(material));
+    if (material.over.empty()) continue;
+    const auto below = std::ranges::find(materials, material.over, &Material::name);
+    media.back().below = static_cast<std::uint8_t>(below - materials.begin());
+  }
+  return media;
 }
 
 // Height of a ball's centre over x, y at which it touches the plane of a face, if it would touch it inside the face.
@@ -96,8 +119,13 @@ Result<World> World::create(const Scene& scene, std::shared_ptr<const Jobs> jobs
   auto impl = std::make_unique<Impl>();
   impl->scene = scene;
   impl->jobs = jobs ? std::move(jobs) : std::make_shared<const Jobs>(1);
-  impl->materials.push_back(*find_material(scene, scene.terrain.material));
-  for (const Material& material : impl->materials) impl->media.push_back(laws::make_medium(material));
+  impl->materials = materials_in_use(scene);
+  if (impl->materials.size() > laws::kNoLayer)
+    return fail({.key = "materials",
+                 .problem = fmt::format("the ground is made of {} materials", impl->materials.size()),
+                 .expected = fmt::format("expected at most {}", laws::kNoLayer)});
+  impl->media = media_of(impl->materials);
+  if (auto ok = terrain::place_materials(scene, impl->materials, *surface); !ok) return tl::unexpected(ok.error());
   impl->surface = std::move(*surface);
   impl->lowest = math::Aabb::kInf;
   for (const Vec3& p : impl->surface.position) impl->lowest = std::min<double>(impl->lowest, p.z);

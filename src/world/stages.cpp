@@ -113,9 +113,10 @@ void World::Impl::move_bodies(StepReport& report) {
 
 bool World::Impl::wake_and_sleep() {
   return timed(Stage::activation, [&] {
-    const bool changed = activation::update(particles, soil, surface, media, wake, activation_scratch);
+    bool changed = activation::update(particles, soil, surface, media, wake, activation_scratch);
     events::kick(kicks, surface, soil, particles);
     contact::carry(bodies, particles, soil, surface, scene.dt, contact_scratch);
+    changed |= break_crusts();
     // Ground that a blast makes flow does so until it comes to rest.
     for (const state::Blast& blast : blasts)
       if (blast.active && blast.start == time())

@@ -56,7 +56,8 @@ struct World::Impl {
   settle::Scratch settle_scratch;
   std::vector<std::uint32_t> wake;
   std::vector<events::Kick> kicks;
-  std::vector<bool> dirty_chunk;  ///< [vertex / kDirtyChunk]
+  std::vector<std::uint32_t> broken;  ///< scratch: vertices whose crust breaks in this step
+  std::vector<bool> dirty_chunk;      ///< [vertex / kDirtyChunk]
 
   activation::Scratch activation_scratch;
   contact::Scratch contact_scratch;
@@ -78,6 +79,7 @@ struct World::Impl {
   void set_off_bombs();
   void move_bodies(StepReport& report);
   bool wake_and_sleep();
+  bool break_crusts();  ///< true where particles are of another material now
   void find_neighbours(bool particles_changed);
   void move_particles(bool particles_changed, StepReport& report);
   void settle_ground();
