@@ -43,12 +43,15 @@ constexpr Field kFields[] = {{"reference_spacing", "m", &Material::reference_spa
                              {"repose_angle_deg", "degrees", &Material::repose_angle_deg},
                              {"blast_strength", "Pa", &Material::blast_strength},
                              {"blast_drag", "Pa s/m", &Material::blast_drag},
-                             {"ejecta_share", "", &Material::ejecta_share}};
+                             {"ejecta_share", "", &Material::ejecta_share},
+                             {"texture_size", "m", &Material::texture_size}};
 
 Json to_json(const Material& material) {
   Json out = {{"name", material.name}};
   for (const Field& field : kFields) out[field.key] = material.*field.value;
   out["ground"] = material.ground;
+  out["color"] = material.color;
+  out["texture"] = material.texture;
   return out;
 }
 
@@ -86,6 +89,8 @@ void print_table() {
     for (const Field& field : kFields)
       print_row(field.key, field.unit, now, [&](const Material& m) { return short_number(m.*field.value); });
     print_row("ground", "", now, [](const Material& m) { return m.ground ? "true" : "false"; });
+    print_row("color", "", now, [](const Material& m) { return m.color.empty() ? "-" : m.color; });
+    print_row("texture", "", now, [](const Material& m) { return m.texture.empty() ? "-" : m.texture; });
     left = left.subspan(now.size());
     if (!left.empty()) fmt::print("\n");
   }
