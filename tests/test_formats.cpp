@@ -1,4 +1,6 @@
 // Every format of the registry is read back; the thread that writes; what remains when a disk is full.
+#include <cpl_conv.h>
+#include <cpl_string.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -299,6 +301,58 @@ TEST_F(Formats, EnergyFallsWithTheBall) {
   EXPECT_EQ(falling.ground_kinetic, 0);
   run_to(world, 3);
   EXPECT_LT(world.energy().bodies_kinetic + world.energy().bodies_potential, 0.15 * start.bodies_potential);
+}
+
+// --- the page of a report ---
+
+std::string inflated(const std::string& bytes) {
+  std::size_t size = 0;
+  void* const plain = CPLZLibInflate(bytes.data(), bytes.size(), nullptr, 0, &size);
+  std::string out(static_cast<const char*>(plain), plain == nullptr ? 0 : size);
+  CPLFree(plain);
+  return out;
+}
+
+std::string between(const std::string& text, const std::string& open) {
+  const std::size_t begin = text.find(open) + open.size();
+  return text.substr(begin, text.find("</script>", begin) - begin);
+}
+
+TEST_F(Formats, ReportHoldsTheRun) {
+  World world = struck_world();
+  Report report("# text & <b>more</b> </script>");
+  const std::vector<Vec3> start(world.surface().positions.begin(), world.surface().positions.end());
+  for (int k = 0; k < 5; ++k) {
+    report.add(world);
+    run_to(world, 0.1 * (k + 1));
+  }
+  const auto written = report.write(path("report.html"), world, {.wall_s = 1});
+  if (!written) GTEST_SKIP() << written.error().front().text();
+  const std::string page = slurp(path("report.html"));
+  EXPECT_EQ(page.find("{{style}}"), std::string::npos);
+  const auto facts = nlohmann::json::parse(between(page, "<script id=\"data\" type=\"application/json\">"));
+  EXPECT_EQ(facts["scene_text"], "# text & <b>more</b> </script>");
+  ASSERT_EQ(facts["frames"].size(), 6u) << "five times and the end";
+  EXPECT_EQ(facts["frames"][0]["moved"], 0);
+  EXPECT_GT(facts["frames"][5]["moved"], 20);
+  ASSERT_EQ(facts["craters"].size(), 1u);
+  EXPECT_EQ(facts["craters"][0]["lines"][1]["end"].size(), 201u);
+  EXPECT_EQ(facts["bodies"][0]["name"], "ball");
+
+  std::string blob = between(page, "<script id=\"blob\" type=\"text/plain\">");
+  blob.resize(static_cast<std::size_t>(CPLBase64DecodeInPlace(reinterpret_cast<GByte*>(blob.data()))));
+  const auto part = [&](const nlohmann::json& of) {
+    return inflated(blob.substr(of["at"].get<std::size_t>(), of["bytes"].get<std::size_t>()));
+  };
+  EXPECT_EQ(array_at<Vec3>(part(facts["meshes"][0]), 0, start.size()), start);
+  // What moved lies where the world has it, to half a step.
+  const auto& last = facts["frames"][5];
+  const std::string moved = part(last);
+  const auto count = last["moved"].get<std::size_t>();
+  const auto vertex = array_at<std::uint32_t>(moved, 0, count);
+  const auto offset = array_at<std::int16_t>(moved, 4 * count, 3 * count);
+  const double step = last["step"];
+  for (std::size_t k = 0; k < count; ++k) EXPECT_NEAR(step * offset[3 * k + 2], -world.sinkage(vertex[k]), 0.51 * step);
 }
 
 // --- the thread that writes ---

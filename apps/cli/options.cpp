@@ -54,6 +54,8 @@ void add_run(CLI::App& app, RunOptions& options) {
   add_out(command, options.out, "folder for results (default: out/NAME)");
   command.add_option("--duration", options.scene.duration, "simulated time instead of the scene's, s")->type_name("S");
   add_threads(command, options.scene);
+  command.add_flag("--report", options.report,
+                   "also write report.html: the run to look at in a browser, without network");
   command.add_flag("--quiet", options.quiet, "print nothing but errors");
 }
 

@@ -25,7 +25,8 @@ struct SceneOptions {
 
 struct RunOptions {
   SceneOptions scene;
-  std::string out;  ///< folder for results; empty: out/NAME
+  std::string out;      ///< folder for results; empty: out/NAME
+  bool report = false;  ///< also report.html
   bool quiet = false;
 };
 

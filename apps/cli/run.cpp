@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 
 #include "cli/commands.h"
 #include "cli/interrupt.h"
@@ -12,6 +13,9 @@
 
 namespace divot::cli {
 namespace {
+
+// Times that a report shows, spread over the run.
+constexpr double kReportTimes = 200;
 
 // Rows of bodies.csv where the scene asks for no frames, s.
 constexpr double kBodiesEvery = 0.1;
@@ -33,11 +37,13 @@ class Rhythm {
 // A world on its way to the end, with what it writes as it goes.
 class Run {
  public:
-  Run(World& world, Recorder& recorder)
+  Run(World& world, Recorder& recorder, Report* report)
       : world_(world),
         recorder_(recorder),
+        report_(report),
         frames_(world.scene().output.every, world.scene().dt),
-        bodies_(world.scene().output.every > 0 ? world.scene().output.every : kBodiesEvery, world.scene().dt) {}
+        bodies_(world.scene().output.every > 0 ? world.scene().output.every : kBodiesEvery, world.scene().dt),
+        report_times_(world.scene().duration / kReportTimes, world.scene().dt) {}
 
   Result<RunTotals> go(bool show_progress);
 
@@ -47,7 +53,8 @@ class Run {
 
   World& world_;
   Recorder& recorder_;
-  Rhythm frames_, bodies_;
+  Report* report_;  // null: none
+  Rhythm frames_, bodies_, report_times_;
   bool has_row_ = false;  // bodies.csv holds the bodies as they are now
   RunTotals totals_;
 };
@@ -55,6 +62,7 @@ class Run {
 Result<void> Run::record() {
   has_row_ = bodies_.is_due(world_.time());
   if (has_row_) recorder_.add_bodies(world_);
+  if (report_ != nullptr && report_times_.is_due(world_.time())) report_->add(world_);
   if (frames_.is_due(world_.time())) return recorder_.write_frame(world_);
   return {};
 }
@@ -91,8 +99,13 @@ int run(const RunOptions& options) {
   auto recorder = Recorder::create(folder);
   if (!recorder) return report(recorder.error(), kFailed);
 
-  const auto totals = Run(*world, *recorder).go(!options.quiet);
+  Report page(options.report ? scene_text(options.scene) : std::string());
+  const auto totals = Run(*world, *recorder, options.report ? &page : nullptr).go(!options.quiet);
   if (!totals) return report(totals.error(), kFailed);
+  if (options.report) {
+    const std::string path = (std::filesystem::path(folder) / "report.html").string();
+    if (const auto written = page.write(path, *world, *totals); !written) return report(written.error(), kFailed);
+  }
   if (const auto written = recorder->finish(*world, *totals); !written) return report(written.error(), kFailed);
   if (!options.quiet) fmt::print("{}", run_summary(*world, *totals, folder));
   if (!totals->interrupted) return kDone;

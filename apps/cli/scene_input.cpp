@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 namespace divot::cli {
 namespace {
@@ -22,6 +24,14 @@ Result<Scene> load(const SceneOptions& options) {
   for (Error& error : errors)
     if (error.file == kDurationSource) error.file = "--duration", error.key.clear();
   return tl::unexpected(std::move(errors));
+}
+
+std::string scene_text(const SceneOptions& options) {
+  std::ifstream in(options.path, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  for (const Override& change : options.overrides) text += fmt::format("\n# --set {}={}", change.key, change.value);
+  if (!options.duration.empty()) text += fmt::format("\n# --duration {}", options.duration);
+  return text;
 }
 
 Result<World> open_world(const SceneOptions& options) {

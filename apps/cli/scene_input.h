@@ -7,6 +7,9 @@
 
 namespace divot::cli {
 
+/// A scene's file as it stands, with what the command line changes as comments below it.
+std::string scene_text(const SceneOptions& options);
+
 /// The scene of a file, changed as the command line asks. Errors name the file or the option they came from.
 Result<Scene> load(const SceneOptions& options);
 

@@ -26,8 +26,8 @@ class Recorder {
   /// Makes `folder`, with those above it, and starts `bodies.csv` in it. Fails with the system's reason.
   static Result<Recorder> create(const std::string& folder);
 
-  Recorder(Recorder&&) noexcept;
-  Recorder& operator=(Recorder&&) noexcept;
+  Recorder(Recorder&&) noexcept;             ///< nothing is written twice
+  Recorder& operator=(Recorder&&) noexcept;  ///< likewise
   /// Waits for what is being written. Without finish(), `bodies.csv` ends with the last rows added.
   ~Recorder();
 
@@ -46,6 +46,30 @@ class Recorder {
  private:
   struct Impl;
   explicit Recorder(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A run as one page for a browser that needs no network: the ground and bodies in three dimensions with a scrubber,
+/// crater profiles, energy and soil over time, time per stage, the scene. Keeps what moved at each time that add() is
+/// called, compressed; when the page would grow beyond about 12 MB, every other time is dropped. Terrain of more than
+/// 400,000 vertices is drawn on a coarser grid.
+class Report {
+ public:
+  /// `scene_text`: shown on the page, as the file's text with what the command line changed.
+  explicit Report(std::string scene_text);
+  Report(Report&&) noexcept;             ///< keeps what was added
+  Report& operator=(Report&&) noexcept;  ///< likewise
+  ~Report();
+
+  /// The world as it is now. The first call should come before the first step. [O(vertices)]
+  void add(const World& world);
+
+  /// Writes the page, with the world as it is now as the last time. Fails with the system's reason, or where the
+  /// library was built without three.js.
+  Result<void> write(const std::string& path, const World& world, const RunTotals& totals);
+
+ private:
+  struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 

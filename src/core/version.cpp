@@ -1,0 +1,7 @@
+#include "divot/version.h"
+
+namespace divot {
+
+const char* version() { return DIVOT_VERSION; }
+
+}  // namespace divot
