@@ -3,6 +3,7 @@
 
 #include "events/events.h"
 #include "laws/blast.h"
+#include "laws/crater.h"
 #include "support.h"
 
 namespace divot::events {
@@ -15,7 +16,7 @@ struct Site {
     bvh.build(surface.mesh.triangles(), surface.position, 0, Jobs(1));
   }
   state::Blast detonate(const Bomb& bomb, Blast model = Blast::scaled) {
-    return events::detonate(bomb, model, 2, 1.0 / 60, surface, soil, bvh, media, scratch);
+    return events::detonate(bomb, model, {2, 1.0 / 60, 9.81}, surface, soil, bvh, media, scratch);
   }
   state::Surface surface;
   state::Soil soil;
@@ -32,7 +33,7 @@ double distance(const Site& site, const state::Blast& blast, std::uint32_t colum
 TEST(Events, ABombPushesTheGroundThatFailsAndLetsSoilLandAroundIt) {
   Site site({.columns = 61, .rows = 61, .spacing = 0.3});
   const state::Blast blast = site.detonate({.position = {0.05, -0.1, 0}});
-  const double radius = laws::scaled_radius(1, Material{}.blast_strength, 0);
+  const double radius = laws::scaled_crater(1, 0, site.media[0], 9.81).radius;
   EXPECT_TRUE(blast.active);
   EXPECT_EQ(blast.start, 2);
   EXPECT_GE(blast.pulse, laws::pulse(1));
@@ -71,15 +72,46 @@ TEST(Events, BombsBesideTheTerrainOrTooHighPushNothing) {
   EXPECT_EQ(site.soil.size(), 0u);
 }
 
-TEST(Events, BelowTheGroundCountsAsAtTheGround) {
+TEST(Events, ToThePapersModelBelowTheGroundIsAtTheGround) {
   Site above({.columns = 21, .rows = 21, .spacing = 1}), below({.columns = 21, .rows = 21, .spacing = 1});
-  EXPECT_EQ(above.detonate({.position = {0, 0, 0}}).push, below.detonate({.position = {0, 0, -5}}).push);
+  EXPECT_EQ(above.detonate({.position = {0, 0, 0}}, Blast::paper).push,
+            below.detonate({.position = {0, 0, -5}}, Blast::paper).push);
 }
 
 TEST(Events, OnASlopeTheGroundIsPushedAlongItsNormal) {
   Site site({.columns = 41, .rows = 41, .spacing = 0.5, .height = [](double x, double) { return 0.4 * x; }});
   const state::Blast blast = site.detonate({.position = {0, 0, 0}});
   EXPECT_LT(length(blast.direction - normalized(Vec3{0.4f, 0, -1})), 1e-4f);
+}
+
+// Half of the ground is eight times as strong: its craters are half as wide.
+TEST(Events, EachSoilFailsByItsOwnStrengthAndSoilLandsAtBothEdges) {
+  Site site({.columns = 81, .rows = 81, .spacing = 0.25});
+  Material strong;
+  strong.blast_strength *= 8;
+  strong.blast_drag *= 4;
+  site.media.push_back(laws::make_medium(strong));
+  for (std::size_t v = 0; v < site.surface.position.size(); ++v)
+    if (site.surface.position[v].x < 0) site.surface.material[v] = 1;
+  const state::Blast blast = site.detonate({.position = {0, 0, 0}});
+  const double wide = laws::scaled_crater(1, 0, site.media[0], 9.81).radius;
+  const double narrow = laws::scaled_crater(1, 0, site.media[1], 9.81).radius;
+  EXPECT_NEAR(narrow, wide / 2, 0.01 * wide);
+  double right = 0, left = 0, landed = 0, lip_left = 0;
+  for (const std::uint32_t column : blast.column) {
+    const Vec3 p = site.soil.original[column];
+    (p.x < 0 ? left : right) = std::max(p.x < 0 ? left : right, std::hypot<double>(p.x, p.y));
+  }
+  EXPECT_NEAR(right, wide, 0.25);
+  EXPECT_NEAR(left, narrow, 0.25);
+  for (std::size_t k = 0; k < blast.landing.size(); ++k) {
+    const Vec3 p = site.soil.original[blast.landing[k]];
+    const double volume = blast.landing_height[k] * site.soil.area[blast.landing[k]];
+    landed += volume;
+    if (p.x < -1 && std::hypot(p.x, p.y) < 1.4 * narrow) lip_left += volume;
+  }
+  EXPECT_NEAR(landed, 1, 1e-4);
+  EXPECT_GT(lip_left, 0.03) << "the strong side has a lip of its own, at its own edge";
 }
 
 // ---- craters
@@ -284,6 +316,76 @@ TEST(EventsPush, TwoAddUpAndBadNumbersAreRefused) {
   EXPECT_NEAR(twice.ground_height(0, 0), 2 * once.ground_height(0, 0), 0.02 * once.ground_height(0, 0));
   EXPECT_FALSE(once.push_ground({.radius = 0, .velocity = {0, 0, 1}}));
   EXPECT_FALSE(once.push_ground({.radius = 1, .velocity = {0, 0, NAN}}));
+}
+
+TEST(EventsCrater, BuriedIsLargerThenGone) {
+  const Crater at = crater_of(crater_scene(1)), shallow = crater_of(crater_scene(1, -3));
+  EXPECT_GT(shallow.width, 1.3 * at.width);
+  EXPECT_GT(shallow.depth, 1.3 * at.depth);
+  EXPECT_GE(shallow.lip_volume / shallow.volume, at.lip_volume / at.volume);
+  EXPECT_EQ(crater_of(crater_scene(1, -15)).width, 0) << "a camouflet";
+}
+
+TEST(EventsCrater, DepthBuriesLikeAPositionBelowTheGround) {
+  Scene by_place = crater_scene(1, -3), by_depth = crater_scene(1);
+  by_depth.bombs[0].depth = 3;
+  EXPECT_EQ(blow(by_place).state_hash(), blow(by_depth).state_hash());
+}
+
+// The volumes that rays integrate are those of the surface, whatever the slope.
+TEST(EventsCrater, VolumesAreThoseOfTheSurface) {
+  for (const double slope : {0.0, 0.3}) {
+    Scene scene = crater_scene(1);
+    auto& grid = std::get<GridTerrain>(scene.terrain.shape);
+    grid.height = [=](double x, double) { return slope * x; };
+    const World world = blow(scene);
+    const SoilVolume soil = world.soil_volume();
+    EXPECT_NEAR(world.craters()[0].volume, soil.displaced, 0.03 * soil.displaced) << slope;
+    EXPECT_NEAR(world.craters()[0].lip_volume, soil.deposited, 0.1 * soil.deposited) << slope;
+    EXPECT_LT(soil.relative_error(), 0.01) << slope;
+  }
+}
+
+TEST(EventsCrater, OnASlopeMoreLandsDownhill) {
+  Scene scene = crater_scene(1);
+  auto& grid = std::get<GridTerrain>(scene.terrain.shape);
+  grid.height = [](double x, double) { return 0.3 * x; };
+  scene.bombs[0].position = {};
+  const World world = blow(scene);
+  double down = 0, up = 0;
+  for (double x = 0.05; x < 9; x += 0.1)
+    for (double y = -9; y < 9; y += 0.1) {
+      down += std::max(0.0, world.ground_height(-x, y) + 0.3 * x);
+      up += std::max(0.0, world.ground_height(x, y) - 0.3 * x);
+    }
+  EXPECT_GT(down, 1.2 * up);
+  EXPECT_GT(up, 0);
+}
+
+// A crater beside another is as wide as it would be alone.
+TEST(EventsCrater, IsMeasuredBesideAnother) {
+  const Crater alone = crater_of(crater_scene(1));
+  Scene scene = crater_scene(1);
+  scene.bombs.push_back(scene.bombs[0]);
+  scene.bombs[1].position.x += 0.8 * alone.width;  // they overlap by a fifth
+  scene.bombs[1].time = 0.5;
+  const World world = blow(scene, 1.8);
+  for (const Crater& crater : world.craters()) EXPECT_NEAR(crater.width, alone.width, 0.12 * alone.width);
+  EXPECT_LT(world.soil_volume().relative_error(), 0.01);
+}
+
+// A ball that lies on ground zero does not shelter the ground below it.
+TEST(EventsCrater, ABallOnGroundZeroDoesNotHoldTheGround) {
+  Scene scene = crater_scene(1);
+  scene.terrain.material = "dry_sand";
+  scene.bombs[0].time = 1;
+  const Crater without = blow(scene, 3).craters().at(0);
+  scene.bodies = {{.name = "ball", .shape = {.radius = 1}, .mass = 100, .position = {}, .above_ground = true}};
+  const World world = blow(scene, 3);
+  // The ball dents the crater's floor when it falls into it.
+  EXPECT_NEAR(world.craters().at(0).depth, without.depth, 0.1 * without.depth);
+  EXPECT_NEAR(world.craters().at(0).width, without.width, 0.05 * without.width);
+  EXPECT_LT(world.bodies()[0].position.z, -0.5 * without.depth + 1) << "it has fallen into the crater";
 }
 
 }  // namespace

@@ -66,37 +66,24 @@ TEST(LawsBlast, PulseScalesWithTheCubeRoot) {
   EXPECT_NEAR(pulse(1000), 10 * kReferencePulse, 1e-12);
 }
 
-// The scaled model fails the ground exactly out to its radius, whatever yield, strength and height.
-TEST(LawsBlast, PressureAtTheScaledRadiusIsTheStrength) {
+// Eq. 13 at Hopkinson's distance from the virtual source, times the cosine: the strength, exactly at the radius.
+TEST(LawsBlast, PressureAtTheSurfaceRadiusIsTheStrength) {
   for (const double yield : {0.001, 0.25, 1.0, 100.0, 5000.0})
-    for (const double strength : {300.0, 985.0, 13'000.0})
-      for (const double share : {0.0, 0.3, 0.8}) {
-        const double height = share * scaled_radius(yield, strength, 0);
-        const double radius = scaled_radius(yield, strength, height);
-        ASSERT_GT(radius, 0);
-        const Source source = scaled_source(yield, strength, height);
-        const auto pressure = [&](double r) {
-          const double x = source.distance(r, 0);
-          return scaled_pressure(source, x, source.height / x);
-        };
-        EXPECT_NEAR(pressure(radius), strength, 1e-6 * strength);
-        EXPECT_GT(pressure(0.9 * radius), strength);
-        EXPECT_LT(pressure(1.1 * radius), strength);
-      }
+    for (const double strength : {300.0, 985.0, 13'000.0}) {
+      const double radius = surface_radius(yield, strength), height = kSourceHeight * radius;
+      const auto pressure = [&](double r) {
+        const double x = std::hypot(r, height);
+        return pressure_at(total_pressure(1), x / std::cbrt(yield), 0) * height / x;
+      };
+      EXPECT_NEAR(pressure(radius), strength, 1e-6 * strength);
+      EXPECT_NEAR(surface_depth(yield, strength, 2), (pressure(0) - strength) * pulse(yield) / 4, 1e-6 * strength);
+    }
 }
 
-TEST(LawsBlast, ScaledRadiusGoesWithTheCubeRootAndFallsWithHeight) {
-  const double one = scaled_radius(1, 985, 0);
-  EXPECT_NEAR(scaled_radius(1000, 985, 0), 10 * one, 1e-9);
-  EXPECT_NEAR(scaled_radius(1, 985 * 8, 0), one / 2, 1e-9);
-  double before = one;
-  for (double height = 0.5; height < 5; height += 0.5) {
-    const double radius = scaled_radius(1, 985, height);
-    EXPECT_LT(radius, before);
-    before = radius;
-  }
-  EXPECT_EQ(scaled_radius(1, 985, 6), 0);  // 0.6 m/kg^(1/3)
-  EXPECT_NEAR(scaled_radius(1, 985, -3), one, 0) << "below ground counts as at the ground";
+TEST(LawsBlast, SurfaceRadiusGoesWithTheCubeRootOfYieldOverStrength) {
+  const double one = surface_radius(1, 985);
+  EXPECT_NEAR(surface_radius(1000, 985), 10 * one, 1e-9);
+  EXPECT_NEAR(surface_radius(1, 985 * 8), one / 2, 1e-9);
 }
 
 TEST(LawsBlast, ThePapersModelIsEq14OverThePapersMass) {

@@ -94,12 +94,12 @@ TEST(Layers, TheBrokenRadiusGrowsFromTheCrustsToTheSoils) {
   Material road = *find_preset("asphalt");
   road.over = "clay_wet", road.over_thickness = 0.1;
   const laws::Medium crust = laws::make_medium(road), clay = laws::make_medium(*find_preset("clay_wet"));
-  const auto scaled = [&](double kg) { return laws::broken_radius(crust, clay, kg / 1000, 0) / std::cbrt(kg); };
+  const auto scaled = [&](double kg) { return laws::broken_radius(crust, clay, kg / 1000, 0, 0) / std::cbrt(kg); };
   EXPECT_EQ(scaled(1), 0);  // a crater of 0.079 m
-  EXPECT_NEAR(scaled(2.1), 0.1 * laws::scaled_radius(1, crust.blast_strength, 0), 0.02);
+  EXPECT_NEAR(scaled(2.1), 0.1 * laws::surface_radius(1, crust.blast_strength), 0.02);
   EXPECT_GT(scaled(100), scaled(10));
-  EXPECT_NEAR(scaled(1e7), 0.1 * laws::scaled_radius(1, clay.blast_strength, 0), 0.01);
-  EXPECT_EQ(laws::broken_radius(crust, clay, 0.1, 20), 0);  // far above the ground
+  EXPECT_NEAR(scaled(1e7), 0.1 * laws::surface_radius(1, clay.blast_strength), 0.01);
+  EXPECT_EQ(laws::broken_radius(crust, clay, 0.1, 20, 0), 0);  // far above the ground
 }
 
 TEST(Layers, ErrorsNameTheLayer) {

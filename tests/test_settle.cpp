@@ -78,6 +78,7 @@ TEST(Settle, ThrownSoilLandsAndNoneIsLost) {
   state::Blast& blast = step.blasts[0];
   for (const std::uint32_t i : {11u, 12u, 13u}) {
     blast.column.push_back(s.particles.column[i]);
+    blast.thrown.push_back(0.185f);
     s.particles.flow_rate[i] = 1;
     s.particles.z[i] -= 0.5f;
     sunk += 0.5 * s.soil.area[s.particles.column[i]];
@@ -90,7 +91,7 @@ TEST(Settle, ThrownSoilLandsAndNoneIsLost) {
   blast.landing_height.assign(2, static_cast<float>(1 / area));
   step(s);
 
-  const double height = sunk * Material{}.ejecta_share / area;
+  const double height = sunk * 0.185 / area;
   EXPECT_NEAR(s.surface.position[2].z, height, 1e-5);
   EXPECT_NEAR(s.surface.position[22].z, height, 1e-5);
   double added = 0;
@@ -98,8 +99,8 @@ TEST(Settle, ThrownSoilLandsAndNoneIsLost) {
   EXPECT_NEAR(added, 0, 1e-7);
   const std::uint32_t middle = s.particles.column[12];
   const double lost = 0.5 * s.soil.area[middle];
-  EXPECT_NEAR(s.soil.gained[middle], -lost * Material{}.ejecta_share, 1e-5);
-  EXPECT_NEAR(s.soil.compacted[middle], lost * (1 - Material{}.ejecta_share), 1e-5);
+  EXPECT_NEAR(s.soil.gained[middle], -lost * 0.185, 1e-5);
+  EXPECT_NEAR(s.soil.compacted[middle], lost * (1 - 0.185), 1e-5);
   EXPECT_NEAR(s.soil.rest[s.particles.column[22]].z, height, 1e-5);
 }
 

@@ -89,8 +89,9 @@ struct BodySettings {
 /// A charge.
 struct Bomb {
   double time = 0;            ///< s, when it goes off, >= 0
-  Vec3d position = {};        ///< m, in the terrain's coordinates; one below the ground goes off at the ground
+  Vec3d position = {};        ///< m, in the terrain's coordinates; below the ground it is a buried charge
   bool above_ground = false;  ///< true: position.z is the height of burst above the ground there
+  double depth = 0;           ///< of burial below `position`, m, >= 0
   double yield = 1;           ///< metric tons of TNT, > 0
 };
 

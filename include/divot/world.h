@@ -42,12 +42,13 @@ struct UpdateCounts {
 
 /// A crater as the surface shows it.
 struct Crater {
-  Vec3d position;          ///< of the bomb, m
+  Vec3d position;          ///< ground zero as it was: the point of the ground next to the bomb, m
   double yield = 0;        ///< t of TNT
   double width = 0;        ///< m, apparent, at original ground level, edge at 5 % of the depth
   double depth = 0;        ///< m, below original ground
   double lip_height = 0;   ///< m, above original ground
-  double volume = 0;       ///< m^3 below original ground, within 1.5 widths
+  double volume = 0;       ///< m^3 below original ground, inside its edge
+  double lip_volume = 0;   ///< m^3 above original ground, from its edge to 2.5 radii
   double paper_width = 0;  ///< m, eq. 10
 };
 

@@ -20,10 +20,21 @@
 // sums      over vertices in ascending order
 namespace divot::events {
 
-/// What a bomb does to the ground at `time`, s. A blast that reaches no vertex pushes nothing and is inactive.
-/// `bomb.position` is in the terrain's coordinates; a burst below the ground counts as one at the ground.
-state::Blast detonate(const Bomb& bomb, Blast model, double time, double dt, state::Surface& surface, state::Soil& soil,
+/// The step in which a bomb goes off.
+struct Moment {
+  double time = 0;     ///< s
+  double dt = 0;       ///< s
+  double gravity = 0;  ///< m/s^2, >= 0
+};
+
+/// What a bomb does to the ground. A blast that reaches no vertex pushes nothing and is inactive.
+/// `bomb.position` is in the terrain's coordinates; to the paper's model a burst below the ground is one at the ground.
+state::Blast detonate(const Bomb& bomb, Blast model, const Moment& moment, state::Surface& surface, state::Soil& soil,
                       const geometry::Bvh& bvh, std::span<const laws::Medium> media, state::RegionScratch& scratch);
+
+/// Ground that the blast pushes is let go by what carried it and, in the scaled model, flows until it comes to rest.
+/// For the step in which it went off, when all that it pushes is awake.
+void loosen(const state::Blast& blast, const state::Soil& soil, state::Particles& particles);
 
 /// Velocity that a push gives one vertex.
 struct Kick {

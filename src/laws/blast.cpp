@@ -9,12 +9,6 @@ namespace {
 
 using std::numbers::pi;
 
-// The scaled model's virtual source stands this many crater radii over ground zero. Lower makes the crater a cone,
-// higher a disc; here it is close to the paraboloid that craters are measured as [Glasstone & Dolan 1977].
-constexpr double kScaledHeight = 1.5;
-// Share of the height of burst that raises the virtual source: craters end at about 0.55 m/kg^(1/3) (an engineering
-// guess).
-constexpr double kBurstShare = 0.81;
 // The paper's model: lowest virtual source, in crater widths. Sets how far out the sheet's edge (5 % of the depth)
 // lies.
 constexpr double kPaperHeight = 0.265;
@@ -44,23 +38,16 @@ double particle_force(double pressure, double width, double count) {
 
 double Source::distance(double radius, double above) const { return std::hypot(radius, height - above); }
 
-Source scaled_source(double yield, double strength, double height_of_burst) {
-  const double at_ground = kScaledHeight * scaled_radius(yield, strength, 0);
-  return {yield, std::hypot(at_ground, kBurstShare * height_of_burst)};
+double surface_radius(double yield, double strength) {
+  // At the edge P = strength: P_1 N h / (4/3 pi (R^2 + h^2)^2) = strength with h = 1.5 R.
+  const double slant = 1 + kSourceHeight * kSourceHeight;
+  return std::cbrt(total_pressure(1) * yield / (4.0 / 3 * pi * strength) * kSourceHeight / (slant * slant));
 }
 
-double scaled_pressure(const Source& source, double distance, double cosine) {
-  return total_pressure(1) / fall_off(distance / std::cbrt(source.yield)) * cosine;
-}
-
-double scaled_radius(double yield, double strength, double height_of_burst) {
-  // At the edge P = strength: P_1 N h / (4/3 pi (R^2 + h^2)^2) = strength with h = 1.5 R for a burst at the ground.
-  const double slant = 1 + kScaledHeight * kScaledHeight;
-  const double source = total_pressure(1) * yield / (4.0 / 3 * pi * strength);
-  const double at_ground = std::cbrt(source * kScaledHeight / (slant * slant));
-  if (height_of_burst <= 0) return at_ground;
-  const double h = std::hypot(kScaledHeight * at_ground, kBurstShare * height_of_burst);
-  return std::sqrt(std::max(0.0, std::sqrt(source * h) - h * h));
+double surface_depth(double yield, double strength, double drag) {
+  // (P - strength) T / (2 drag) below the source, where P / strength = ((1 + 1.5^2) / 1.5^2)^2.
+  const double slant = 1 / (kSourceHeight * kSourceHeight) + 1;
+  return (slant * slant - 1) * strength * pulse(yield) / (2 * drag);
 }
 
 Source paper_source(double yield, double height_of_burst) {

@@ -31,8 +31,18 @@ double charge_radius(double yield);
 /// Eq. 14: force on one of `count` particles that share a crater `width` wide, N.
 double particle_force(double pressure, double width, double count);
 
-/// The pressure that pushes soil of blast strength Y, by one of two models (docs/physics.md, "Blast").
-/// Both see the burst from a virtual source above ground zero, because eq. 13 is singular at the burst itself.
+// Cube-root scaled model: eq. 13 with Hopkinson's scaled distance from a virtual source above ground zero, because eq.
+// 13 is singular at the burst itself. Soil fails where the pressure into the ground exceeds its blast strength.
+
+/// Height of the virtual source, in crater radii. Lower makes the crater a cone, higher a disc; here it is close to the
+/// paraboloid that craters are measured as [Glasstone & Dolan 1977].
+inline constexpr double kSourceHeight = 1.5;
+/// Radius within which weightless soil of that strength, Pa, fails under a burst at the ground, m.
+double surface_radius(double yield, double strength);
+/// How deep it flows against its drag, Pa s/m, at ground zero while the pulse lasts, m.
+double surface_depth(double yield, double strength, double drag);
+
+/// The burst as the paper's model sees it: from a virtual source above ground zero.
 struct Source {
   double yield = 0;
   double height = 0;  ///< of the virtual source above ground zero, m
@@ -40,15 +50,6 @@ struct Source {
   /// Distance from the virtual source to a point of the ground `radius` from ground zero and `above` it, m.
   double distance(double radius, double above) const;
 };
-
-/// Cube-root scaled model. Soil fails where the pressure exceeds its blast strength; the crater's radius follows from
-/// the strength. Radius of the failing ground for a burst at `height_of_burst`, m; 0 where it is too high to break the
-/// ground.
-double scaled_radius(double yield, double strength, double height_of_burst);
-Source scaled_source(double yield, double strength, double height_of_burst);
-/// Pressure of the scaled model into the ground, Pa: eq. 13 with Hopkinson's scaled distance, times the cosine of
-/// incidence.
-double scaled_pressure(const Source& source, double distance, double cosine);
 
 /// The paper's model: virtual source no lower than a share of the crater's width.
 Source paper_source(double yield, double height_of_burst);

@@ -12,7 +12,8 @@ inline double punching_pressure(const Medium& crust, double b) { return 2.0 * cr
 
 /// How far from ground zero a burst breaks the crust away, m; 0 where it only scars it: where the crater it would make
 /// in endless crust is no deeper than the crust. A thick crust breaks as far as that crater reaches, one that is thin
-/// against it as far as a crater in the softer ground would; between, in proportion.
-double broken_radius(const Medium& crust, const Medium& below, double yield, double height_of_burst);
+/// against it as far as a crater in the softer ground would; between, in proportion. A charge that is buried below the
+/// crust breaks it as far as the softer ground fails. `height` of burst in m, negative: buried.
+double broken_radius(const Medium& crust, const Medium& below, double yield, double height, double gravity);
 
 }  // namespace divot::laws

@@ -37,6 +37,7 @@ Json craters(const World& world) {
                    {"depth_m", c.depth},
                    {"lip_height_m", c.lip_height},
                    {"volume_m3", c.volume},
+                   {"lip_volume_m3", c.lip_volume},
                    {"paper_width_m", c.paper_width}});
   }
   return out;

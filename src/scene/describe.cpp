@@ -137,16 +137,20 @@ void describe_body(Visitor& v, BodySettings& body) {
 
 void describe_bomb(Visitor& v, Bomb& bomb) {
   v.number({.name = "time", .unit = "s", .range = between(0, kForever), .meaning = "when it goes off"}, bomb.time);
-  v.place(
-      {.name = "position",
-       .unit = "m",
-       .range = between(-kFar, kFar),
-       .meaning = "of the charge; two numbers put it on the ground at x, y; below the ground it goes off at the ground",
-       .required = true},
-      {.name = "above_ground",
-       .meaning = "position's z is the height of burst above the ground there",
-       .default_text = "`false`; `true` with two numbers"},
-      bomb.position, bomb.above_ground);
+  v.place({.name = "position",
+           .unit = "m",
+           .range = between(-kFar, kFar),
+           .meaning = "of the charge; two numbers put it on the ground at x, y; below the ground it is buried",
+           .required = true},
+          {.name = "above_ground",
+           .meaning = "position's z is the height of burst above the ground there",
+           .default_text = "`false`; `true` with two numbers"},
+          bomb.position, bomb.above_ground);
+  v.number({.name = "depth",
+            .unit = "m",
+            .range = between(0, kLong),
+            .meaning = "of burial: the charge lies so far below `position`"},
+           bomb.depth);
   v.number({.name = "yield",
             .unit = "t of TNT",
             .range = above(0, 1e8),
@@ -315,10 +319,11 @@ void describe_blast(Visitor& v, Material& m) {
             .range = above(0, kHeavy),
             .meaning = "resistance of the soil that flows; sets a crater's depth"},
            m.blast_drag);
-  v.number({.name = "ejecta_share",
-            .range = {.low = 0, .high = 1, .high_open = true},
-            .meaning = "share of a crater's volume on lip and blanket; the rest is compacted"},
-           m.ejecta_share);
+  v.number(
+      {.name = "ejecta_share",
+       .range = {.low = 0, .high = 1, .high_open = true},
+       .meaning = "share of a surface crater's volume on lip and blanket; the rest is compacted as far as it can be"},
+      m.ejecta_share);
 }
 
 void describe_look(Visitor& v, Material& m) {

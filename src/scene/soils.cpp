@@ -246,8 +246,8 @@ constexpr Soil kRock = {
     .compaction_limit = 0.01,    // e.v.: as concrete
     .repose_angle_deg = 45,      // [Glover] crushed stone
     .yield_strain = 0.003,       // e.v.: as concrete
-    .crater_radius = 0.159,      // [TM 5-855-1] generic soil times hard rock over dry soil, 15.4/38.8 [DNA 1984]
-    .crater_depth = 0.083,       // e.v.: deep against its width as concrete's
+    .crater_radius = 0.28,       // Buckboard's buried charges in basalt, brought to the surface by the law of burial
+    .crater_depth = 0.16,        // the same
 };
 
 constexpr Soil kAll[] = {kDrySand,    kLeteSand, kSandyLoam,     kClayDry, kClayWet,  kMud, kSnow,

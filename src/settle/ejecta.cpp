@@ -4,14 +4,15 @@
 
 namespace divot::settle {
 
-double throw_soil(const state::Blast& blast, const state::Particles& p, std::span<const double> lost, state::Soil& soil,
-                  std::span<const laws::Medium> media) {
+double throw_soil(const state::Blast& blast, const state::Particles& p, std::span<double> lost, state::Soil& soil) {
   double volume = 0;
   if (blast.landing.empty()) return volume;
-  for (const std::uint32_t column : blast.column) {
-    const std::uint32_t i = soil.particle[column];
+  for (std::size_t k = 0; k < blast.column.size(); ++k) {
+    const std::uint32_t column = blast.column[k], i = soil.particle[column];
     if (i == kNone || p.flow_rate[i] == 0) continue;
-    const double thrown = media[p.material[i]].ejecta_share * std::max(0.0, lost[i]);
+    // What one blast throws is no longer there for the next to throw.
+    const double thrown = static_cast<double>(blast.thrown[k]) * std::max(0.0, lost[i]);
+    lost[i] -= thrown;
     soil.gained[column] -= thrown;
     soil.compacted[column] -= thrown;
     volume += thrown;

@@ -37,11 +37,10 @@ void move_surface(const Stillness& stillness, Ground& ground, std::vector<double
   }
 }
 
-void throw_and_land(const std::vector<state::Blast>& blasts, std::span<const laws::Medium> media,
-                    std::span<const double> lost, Ground& ground) {
+void throw_and_land(const std::vector<state::Blast>& blasts, std::span<double> lost, Ground& ground) {
   for (const state::Blast& blast : blasts) {
     if (!blast.active) continue;
-    const double thrown = throw_soil(blast, ground.particles, lost, ground.soil, media);
+    const double thrown = throw_soil(blast, ground.particles, lost, ground.soil);
     if (thrown <= 0) continue;
     const float rose = land_soil(blast, thrown, ground);
     ground.moved.distance += rose, ground.moved.free_distance += rose;
@@ -78,7 +77,7 @@ void update(state::Particles& p, state::Soil& soil, state::Surface& surface, std
   moved.distance = moved.free_distance = 0;
   Ground ground{p, soil, surface, moved};
   move_surface(stillness, ground, scratch.lost);
-  throw_and_land(blasts, media, scratch.lost, ground);
+  throw_and_land(blasts, scratch.lost, ground);
 
   soil.restless.insert(soil.restless.end(), moved.vertices.begin(), moved.vertices.end());
   for (std::size_t i = 0; i < p.size(); ++i) {

@@ -19,10 +19,12 @@ struct Blast {
   // Ground that fails, ascending by vertex.
   std::vector<std::uint32_t> column;  ///< [pushed]
   std::vector<float> push;            ///< [pushed] m/s^2 along `direction` at the start of the pulse
+  std::vector<float> thrown;          ///< [pushed] share of the volume lost there that lands on `landing`
 
-  // Ground on which the ejecta land, ascending by vertex; empty when the model throws none.
+  // Ground on which the ejecta land and that is pushed up, ascending by vertex; empty when the model throws none.
   std::vector<std::uint32_t> landing;  ///< [landing] column
   std::vector<float> landing_height;   ///< [landing] m gained for each m^3 thrown: sums to 1 over area
+  double radius = 0;                   ///< m, of the largest crater of any soil here, 0 where it leaves none
   bool active = true;                  ///< what it pushed may still move
 };
 

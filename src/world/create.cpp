@@ -96,6 +96,8 @@ Result<Vec3d> place_body(const World::Impl& w, const BodySettings& body) {
 }
 
 Result<Bomb> place_bomb(const World::Impl& w, Bomb bomb) {
+  bomb.position.z -= bomb.depth;
+  bomb.depth = 0;
   if (!bomb.above_ground) return bomb;
   const Vec3d local = bomb.position - w.surface.origin;
   const state::SurfacePoint ground = state::surface_at(w.surface, w.tree.bvh, static_cast<float>(local.x),

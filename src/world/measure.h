@@ -25,8 +25,13 @@ float pressure(const state::Surface& surface, const state::Soil& soil, std::span
 Energy energy(std::span<const state::Body> bodies, const state::Particles& particles, const Vec3d& gravity,
               const Vec3d& origin);
 
-/// The crater of a blast: depth at its deepest within a crater width, width from rays all round ground zero to where
-/// sinkage first falls to 5 % of the depth. All zero where the ground was not marked. [O(width / spacing)]
+/// Height over x, y of the ground as it was before the first touch, m. Walks from `face`, as it was, to the one that
+/// holds the point.
+double original_height(const state::Surface& surface, const state::Soil& soil, std::uint32_t face, const Vec3d& at);
+
+/// The crater of a blast: depth where the ground that failed lies deepest, the rest from rays all round ground zero,
+/// each to where sinkage first falls to 5 % of the depth. Rays that run into another crater are left out as long as any
+/// does not. All zero where the ground was not marked. [O(width / spacing)]
 Crater crater(const state::Blast& blast, const state::Surface& surface, const state::Soil& soil,
               const geometry::Bvh& bvh, state::RegionScratch& scratch);
 

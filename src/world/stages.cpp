@@ -83,8 +83,8 @@ void World::Impl::set_off_bombs() {
       // A bomb belongs to the step whose start is nearest.
       if (planned.exploded || planned.bomb.time > time() + 0.5 * scene.dt) continue;
       planned.exploded = true;
-      blasts.push_back(events::detonate(planned.bomb, scene.solver.blast, time(), scene.dt, surface, soil, tree.bvh,
-                                        media, region_scratch));
+      blasts.push_back(events::detonate(planned.bomb, scene.solver.blast, {time(), scene.dt, length(scene.gravity)},
+                                        surface, soil, tree.bvh, media, region_scratch));
       for (const std::uint32_t column : blasts.back().column) wake.push_back(soil.vertex[column]);
       for (const std::uint32_t column : blasts.back().landing) wake.push_back(soil.vertex[column]);
     }
@@ -117,12 +117,8 @@ bool World::Impl::wake_and_sleep() {
     events::kick(kicks, surface, soil, particles);
     contact::carry(bodies, particles, soil, surface, scene.dt, contact_scratch);
     changed |= break_crusts();
-    // Ground that a blast makes flow does so until it comes to rest.
     for (const state::Blast& blast : blasts)
-      if (blast.active && blast.start == time())
-        for (const std::uint32_t column : blast.column)
-          if (const std::uint32_t i = soil.particle[column]; i != kNone && particles.hold[i] == Hold::free)
-            particles.flow_rate[i] = std::max(particles.flow_rate[i], blast.flow_rate);
+      if (blast.active && blast.start == time()) events::loosen(blast, soil, particles);
     std::size_t awake = 0;
     for (const Hold hold : particles.hold) awake += hold != Hold::anchor;
     peak_particles = std::max(peak_particles, awake);

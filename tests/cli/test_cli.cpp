@@ -252,8 +252,8 @@ TEST_F(Cli, SummaryHoldsEverythingPromised) {
   ASSERT_EQ(s["bodies"].size(), 1u);
   expect_keys(s["bodies"][0], {"name", "position", "velocity", "heading_change_deg", "max_sinkage_m"});
   ASSERT_EQ(s["craters"].size(), 1u);
-  expect_keys(s["craters"][0],
-              {"x", "y", "yield_t", "width_m", "depth_m", "lip_height_m", "volume_m3", "paper_width_m"});
+  expect_keys(s["craters"][0], {"x", "y", "yield_t", "width_m", "depth_m", "lip_height_m", "volume_m3", "lip_volume_m3",
+                                "paper_width_m"});
   for (const char* stage :
        {"events", "contact", "activation", "neighbours", "forces", "integration", "settle", "refit"})
     expect_keys(s["stages"][stage], {"ms", "calls"});

@@ -1,0 +1,175 @@
+#include "events/scaled_blast.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "events/targets.h"
+#include "laws/crater.h"
+#include "laws/crust.h"
+
+namespace divot::events {
+namespace {
+
+// The crater of the burst in each soil of the terrain.
+struct Sizes {
+  std::vector<laws::CraterSize> of;  // [material]
+  double largest = 0;                // m, radius
+  bool heaves = false;               // some soil cannot be compacted as far as it sinks
+};
+
+Sizes crater_sizes(const Burst& burst, std::span<const laws::Medium> media) {
+  Sizes sizes;
+  for (const laws::Medium& m : media) {
+    const laws::CraterSize size = laws::scaled_crater(burst.yield, burst.height, m, burst.gravity);
+    sizes.of.push_back(size);
+    sizes.largest = std::max(sizes.largest, size.radius);
+    if (size.radius > 0)
+      sizes.heaves |=
+          laws::leaving_share(size, size.depth, std::max(0.0, -burst.height), m.compaction_limit) > size.lip_share;
+  }
+  return sizes;
+}
+
+// Where the crater ends, all round: where soils differ, the mean of their craters, squared and weighted by the ground
+// that each covers in a direction.
+class Edge {
+ public:
+  Edge(const Sizes& sizes, std::span<const Target> reached, const state::Surface& surface) {
+    std::array<double, kSectors> area{}, squares{};
+    for (const Target& t : reached) {
+      if (t.radius > sizes.largest) continue;
+      const double own = sizes.of[surface.material[t.vertex]].radius, a = state::vertex_area(surface, t.vertex);
+      const auto sector = static_cast<std::size_t>(place(t)) % kSectors;
+      area[sector] += a, squares[sector] += a * own * own;
+    }
+    for (std::size_t k = 0; k < kSectors; ++k)
+      radius_[k] = area[k] > 0 ? std::sqrt(squares[k] / area[k]) : sizes.largest;
+  }
+  double radius(const Target& t) const {
+    const double at = place(t) + kSectors - 0.5, part = at - std::floor(at);
+    const auto first = static_cast<std::size_t>(at) % kSectors;
+    return (1 - part) * radius_[first] + part * radius_[(first + 1) % kSectors];
+  }
+
+ private:
+  static constexpr std::size_t kSectors = 16;
+  // In sectors, [0, kSectors].
+  static double place(const Target& t) {
+    return std::clamp((std::atan2(t.y, t.x) / (2 * std::numbers::pi) + 0.5) * kSectors, 0.0, double{kSectors});
+  }
+  std::array<double, kSectors> radius_{};
+};
+
+// On a slope what is thrown flies further downhill: at 45 degrees its range along the ground goes with 1 + tan(slope).
+double range(const state::Blast& blast, const Target& t) {
+  const double flat = std::hypot(t.x, t.y), down = static_cast<double>(blast.direction.z);
+  if (flat == 0) return 1;
+  // The outward normal leans downhill.
+  const double slope = (blast.direction.x * t.x + blast.direction.y * t.y) / (flat * down);
+  return std::clamp(1 + slope, 0.25, 2.0);
+}
+
+// The charge's distance from ground that slopes is shorter than its height over it, and ground zero is the point next
+// to it.
+void face_slope(Burst& burst, state::Blast& blast, const state::Surface& surface, const geometry::Bvh& bvh,
+                state::RegionScratch& scratch) {
+  if (burst.height == 0) return;
+  const float distance = static_cast<float>(burst.height) * -blast.direction.z;
+  const Vec3 charge = blast.ground_zero + Vec3{0, 0, static_cast<float>(burst.height)};
+  const Vec3 next = charge + distance * blast.direction;
+  const state::SurfacePoint foot = state::surface_at(surface, bvh, next.x, next.y, scratch);
+  if (!foot.found) return;
+  blast.ground_zero = foot.position;
+  burst.height = distance;
+}
+
+// What this charge breaks of the crusts around it is gone before the ground below answers.
+void break_crusts(const Burst& burst, const state::Blast& blast, state::Surface& surface, const geometry::Bvh& bvh,
+                  std::span<const laws::Medium> media, state::RegionScratch& scratch) {
+  std::vector<double> radius(media.size(), 0.0);
+  for (std::size_t m = 0; m < media.size(); ++m) {
+    if (media[m].below != laws::kNoLayer)
+      radius[m] = laws::broken_radius(media[m], media[media[m].below], burst.yield, burst.height, burst.gravity);
+  }
+  const double furthest = *std::max_element(radius.begin(), radius.end());
+  if (furthest <= 0) return;
+  for (const Target& t : targets(blast, furthest, surface, bvh, scratch)) {
+    std::uint8_t& material = surface.material[t.vertex];
+    while (t.radius < radius[material]) material = media[material].below;
+  }
+}
+
+struct Landing {
+  double ejecta = 0, upthrust = 0;  // m, of unit crests
+};
+
+// Heights for each m^3 that lands: the shapes of both kinds, each with its share of what leaves the crater.
+void set_heights(state::Blast& blast, const std::vector<Landing>& landing, double thrown, double heaved,
+                 const state::Soil& soil) {
+  double ejecta = 0, upthrust = 0;
+  for (std::size_t k = 0; k < landing.size(); ++k) {
+    const double area = soil.area[blast.landing[k]];
+    ejecta += landing[k].ejecta * area, upthrust += landing[k].upthrust * area;
+  }
+  // On a mesh too coarse for the lip there may be room for one kind only.
+  if (ejecta == 0) heaved += thrown, thrown = 0;
+  if (upthrust == 0) thrown += heaved, heaved = 0;
+  const double all = thrown + heaved;
+  for (const Landing& one : landing) {
+    const double height =
+        (thrown > 0 ? one.ejecta * thrown / ejecta : 0) + (heaved > 0 ? one.upthrust * heaved / upthrust : 0);
+    blast.landing_height.push_back(all > 0 ? static_cast<float>(height / all) : 0.0f);
+  }
+}
+
+}  // namespace
+
+void push_scaled(const Burst& given, state::Blast& blast, state::Surface& surface, state::Soil& soil,
+                 const geometry::Bvh& bvh, std::span<const laws::Medium> media, state::RegionScratch& scratch) {
+  Burst burst = given;
+  if (const double radius = crater_sizes(burst, media).largest; radius > 0) {
+    blast.direction = into_ground(surface, targets(blast, radius, surface, bvh, scratch));
+    face_slope(burst, blast, surface, bvh, scratch);
+  }
+  const Sizes sizes = crater_sizes(burst, media);
+  blast.radius = sizes.largest;
+  if (sizes.largest == 0) return;
+
+  break_crusts(burst, blast, surface, bvh, media, scratch);
+  const double reach = (sizes.heaves ? laws::kUpthrustEnd : 2 * laws::kEjectaEnd) * sizes.largest;
+  const std::vector<Target> reached = targets(blast, reach, surface, bvh, scratch);
+  const Edge edge(sizes, reached, surface);
+  const double buried = std::max(0.0, -burst.height);
+  double thrown = 0, heaved = 0;
+  std::vector<Landing> landing;
+  for (const Target& t : reached) {
+    const laws::Medium& own = media[surface.material[t.vertex]];
+    const laws::CraterSize& size = sizes.of[surface.material[t.vertex]];
+    const double deep = size.radius > 0 ? size.depth * laws::crater_profile(t.radius, t.above, size.radius) : 0;
+    if (deep > 0) {
+      const std::uint32_t column = state::touch_column(surface, soil, t.vertex);
+      const double leaves = laws::leaving_share(size, deep, buried, own.compaction_limit);
+      // A push falling to 0 over the time P against a relaxation time 2 P ends push P^2 deep.
+      blast.column.push_back(column);
+      blast.push.push_back(static_cast<float>(deep / (blast.pulse * blast.pulse)));
+      blast.thrown.push_back(static_cast<float>(leaves));
+      thrown += size.lip_share * deep * soil.area[column];
+      heaved += (leaves - size.lip_share) * deep * soil.area[column];
+      continue;
+    }
+    const double end = edge.radius(t);
+    if (end == 0) continue;
+    const double ratio = t.radius / end;
+    const Landing lands{laws::ejecta_profile(1 + (ratio - 1) / range(blast, t)),
+                        sizes.heaves ? laws::upthrust_profile(ratio) : 0};
+    if (lands.ejecta == 0 && lands.upthrust == 0) continue;
+    blast.landing.push_back(state::touch_column(surface, soil, t.vertex));
+    landing.push_back(lands);
+  }
+  set_heights(blast, landing, thrown, heaved, soil);
+  blast.flow_rate = static_cast<float>(1 / (2 * blast.pulse));
+}
+
+}  // namespace divot::events

@@ -1,0 +1,114 @@
+#include "laws/crater.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "laws/blast.h"
+
+namespace divot::laws {
+namespace {
+
+// How much further than a burst at the surface a fully buried one breaks the ground: the radius of the broken sphere
+// over the surface crater's. Deeper than this nothing shows (a camouflet): at 1.3 m/kg^(1/3) in generic soil. A burst
+// at the surface thus couples 1/3.2^3, a thirtieth, of its energy into the ground. One value, fitted to the radii of
+// Stagecoach and Scooter in alluvium and of Buckboard and Pre-Schooner in basalt together.
+constexpr double kBrokenSphere = 3.2;
+// How coupling grows with depth: the vent closes as the square of what is left of the cover.
+constexpr double kVent = 2;
+// Blast strength per pressure of soil lifted: the strength is in units of eq. 13's pressure, not of what soil carries.
+// Fitted to Scooter against Stagecoach: 500 and 20 tons at nearly one scaled depth.
+constexpr double kOverburden = 8e-4;
+// What a surface crater lifts lies a sixth of its radius deep (the centroid of a paraboloid half as deep as wide); a
+// buried charge lifts its cover as well.
+constexpr double kLifted = 1.0 / 6;
+// Buried craters are deeper for their width, until soil falls back: from four tenths of the broken sphere on.
+constexpr double kDeeper = 0.5, kFallback = 0.4;
+// A burst in the air: radius and depth end at these heights in crater radii, 0.6 and 0.5 m/kg^(1/3) in generic soil,
+// with these exponents. An engineering guess: there is next to no data.
+constexpr double kRadiusEnds = 1.5, kRadiusExponent = 0.8, kDepthEnds = 1.25, kDepthExponent = 1.5;
+// Lips of bursts just above ground hold 20 to 30 % of the crater's volume, at it 15 to 20 %, of deep ones 50 to 70 %
+// [EPG].
+constexpr double kScoured = 0.35, kScourHeight = 0.1, kDeepLip = 0.6, kShallow = 0.15, kDeep = 0.8;
+// Soil is compacted to a depth of so many crater radii: dry sand can then lose by compaction what its measured lips
+// lack.
+constexpr double kCompacted = 4.5;
+// Lip: with the share of the soil that is thrown, crest and exponent set its height, a fifth of the depth, about as
+// steep as loose soil stands. Thin ejecta beyond 1.8 radii fall as r^-3.86 [DNA 1984] and end at 2.15 [TM 5-855-1].
+constexpr double kCrest = 1.1, kLipExponent = 12, kThin = 1.8, kThinExponent = 3.86, kUpthrustExponent = 2;
+
+double smooth(double t) {
+  t = std::clamp(t, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+// Radius of the surface crater in soil whose weight holds it together too: R^3 (Y + weight) is the charge's.
+double weighed_radius(double yield, const Medium& soil, double buried, double gravity) {
+  const double light = surface_radius(yield, soil.blast_strength);
+  const double per_metre = kOverburden * soil.density * gravity / soil.blast_strength;
+  // x^3 (1 + w (x/6 + D)) grows with x and is convex: Newton's method from `light` does not overshoot.
+  double x = light;
+  for (int pass = 0; pass < 8; ++pass) {
+    const double heavier = 1 + per_metre * (kLifted * x + buried);
+    const double value = x * x * x * heavier - light * light * light;
+    const double slope = 3 * x * x * heavier + x * x * x * per_metre * kLifted;
+    x -= value / slope;
+  }
+  return x;
+}
+
+}  // namespace
+
+CraterSize scaled_crater(double yield, double height, const Medium& soil, double gravity) {
+  const double buried = std::max(0.0, -height);
+  const double surface = weighed_radius(yield, soil, buried, gravity);
+  const double shape = surface_depth(yield, soil.blast_strength, soil.blast_drag) /
+                       surface_radius(yield, soil.blast_strength);  // depth over radius of a surface crater
+  if (height > 0) {
+    // A charge that touches the ground has its centre a charge's radius up: only what is well above that is height.
+    const double h = height * height / (height + charge_radius(yield)) / surface;
+    if (h >= kDepthEnds) return {};
+    const double lip = soil.ejecta_share * (1 + kScoured * smooth(h / kScourHeight));
+    return {surface * std::pow(1 - h / kRadiusEnds, kRadiusExponent),
+            surface * shape * std::pow(1 - h / kDepthEnds, kDepthExponent), std::min(lip, 1.0)};
+  }
+  const double whole = kBrokenSphere * surface, s = buried / whole;
+  if (s >= 1) return {};
+  const double broken = whole * (1 - (1 - 1 / kBrokenSphere) * std::pow(1 - s, kVent));
+  const double radius = std::sqrt(broken * broken - buried * buried);
+  const double depth = shape * radius * (1 + kDeeper * s) * (1 - smooth((s - kFallback) / (1 - kFallback)));
+  const double deep = smooth((s - kShallow) / (kDeep - kShallow));
+  const double lip = soil.ejecta_share + std::max(0.0, kDeepLip - soil.ejecta_share) * deep;
+  return {radius, depth, lip};
+}
+
+double crater_profile(double radius, double above, double crater_radius) {
+  const double source = kSourceHeight * crater_radius, up = source - above;
+  if (up <= 0) return 0;
+  // Pressure over that at the edge, less the 1 at which soil begins to fail.
+  const auto excess = [&](double r, double h) {
+    const double slant = r * r + h * h, edge = crater_radius * crater_radius + source * source;
+    return h / source * (edge / slant) * (edge / slant) - 1;
+  };
+  return std::clamp(excess(radius, up) / excess(0, source), 0.0, 1.0);
+}
+
+double leaving_share(const CraterSize& crater, double sunk, double buried, double compaction_limit) {
+  const double capacity = compaction_limit * (kCompacted * crater.radius + buried);
+  return std::clamp(1 - capacity / sunk, crater.lip_share, 1.0);
+}
+
+double ejecta_profile(double ratio) {
+  if (ratio <= 1 || ratio >= kEjectaEnd) return 0;
+  if (ratio < kCrest) return (ratio - 1) / (kCrest - 1);
+  if (ratio <= kThin) return std::pow(ratio / kCrest, -kLipExponent);
+  return std::pow(kThin / kCrest, -kLipExponent) * std::pow(ratio / kThin, -kThinExponent);
+}
+
+double upthrust_profile(double ratio) {
+  if (ratio <= 1 || ratio >= kUpthrustEnd) return 0;
+  if (ratio < kCrest) return (ratio - 1) / (kCrest - 1);
+  const double far = (ratio - kCrest) / (kUpthrustEnd - kCrest);
+  return std::pow(ratio / kCrest, -kUpthrustExponent) * (1 - far);
+}
+
+}  // namespace divot::laws

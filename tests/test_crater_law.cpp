@@ -1,0 +1,150 @@
+// The crater of the scaled model as pure numbers: against what was measured, and against how it must behave.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "laws/blast.h"
+#include "laws/crater.h"
+
+namespace divot::laws {
+namespace {
+
+constexpr double kGravity = 9.81;
+
+// Soil whose light surface craters measure `radius` and `depth` over the cube root of the charge, m/kg^(1/3).
+Medium soil(double radius, double depth, double density = 1600) {
+  Material m;
+  const double ratio = 0.3566 / radius, strength = ratio * ratio * ratio;
+  m.blast_strength *= strength;
+  m.blast_drag *= strength * 0.143 / depth;
+  m.density = density;
+  return make_medium(m);
+}
+
+TEST(LawsCrater, SmallChargesFollowTheCubeRootAndLargeOnesFallBelowIt) {
+  const Medium sand = soil(0.297, 0.149);
+  const auto scaled = [&](double kg, double gravity) {
+    return scaled_crater(kg / 1000, 0, sand, gravity).radius / std::cbrt(kg);
+  };
+  EXPECT_NEAR(scaled(1000, kGravity), scaled(1, kGravity), 0.01 * scaled(1, kGravity));
+  double before = scaled(1, kGravity);
+  for (double kg = 10; kg <= 1e13; kg *= 10) {
+    EXPECT_LT(scaled(kg, kGravity), before) << kg;
+    EXPECT_NEAR(scaled(kg, 0), scaled(1, 0), 1e-9) << "weightless soil knows only the cube root";
+    before = scaled(kg, kGravity);
+  }
+  // In the limit weight is all: the fourth root.
+  const double slope = std::log(scaled(1e18, kGravity) / scaled(1e17, kGravity)) / std::log(10.0) + 1.0 / 3;
+  EXPECT_NEAR(slope, 0.25, 0.003);
+}
+
+// The radius solves its own balance: x^3 (1 + weight (x/6 + D) / strength) is the light crater's.
+TEST(LawsCrater, WeightAddsToStrength) {
+  const Medium clay = soil(0.456, 0.228, 1900);
+  for (const double yield : {0.001, 1.0, 500.0, 5000.0}) {
+    const double radius = scaled_crater(yield, 0, clay, kGravity).radius;
+    const double weighed = clay.blast_strength + 8e-4 * clay.density * kGravity * radius / 6;
+    EXPECT_NEAR(radius, surface_radius(yield, weighed), 1e-6 * radius);
+  }
+}
+
+TEST(LawsCrater, BurialMakesItLargerUpToAnOptimumThenNothing) {
+  const Medium loam = soil(0.4, 0.2);
+  std::vector<double> volume, lip;
+  for (int k = 0; k <= 150; ++k) {
+    const CraterSize size = scaled_crater(0.001, -0.01 * k, loam, kGravity);  // 1 kg: metres are m/kg^(1/3)
+    volume.push_back(size.radius * size.radius * size.depth);
+    if (size.radius > 0) lip.push_back(size.lip_share);
+  }
+  const auto best = std::max_element(volume.begin(), volume.end());
+  const auto optimum = static_cast<double>(best - volume.begin()) / 100;
+  EXPECT_GE(optimum, 0.4);
+  EXPECT_LE(optimum, 0.75);
+  EXPECT_TRUE(std::is_sorted(volume.begin(), best)) << "grows to the optimum";
+  EXPECT_TRUE(std::is_sorted(best, volume.end(), std::greater<>())) << "and falls beyond it";
+  EXPECT_EQ(volume.back(), 0) << "a camouflet";
+  for (std::size_t k = 1; k < volume.size(); ++k)
+    EXPECT_LT(std::abs(volume[k] - volume[k - 1]), 0.05 * *best) << "no jump at " << k << " cm";
+  EXPECT_TRUE(std::is_sorted(lip.begin(), lip.end()));
+  EXPECT_NEAR(lip.front(), 0.185, 1e-6);
+  EXPECT_GE(lip.back(), 0.5);
+}
+
+TEST(LawsCrater, HeightMakesItWideAndShallowThenNothing) {
+  const Medium loam = soil(0.4, 0.2);
+  CraterSize before = scaled_crater(0.001, 0, loam, kGravity);
+  for (double height = 0.02; height < 0.54; height += 0.02) {
+    const CraterSize size = scaled_crater(0.001, height, loam, kGravity);
+    EXPECT_LT(size.radius, before.radius) << height;
+    EXPECT_LT(size.depth / size.radius, before.depth / before.radius) << height;
+    before = size;
+  }
+  EXPECT_EQ(scaled_crater(0.001, 0.6, loam, kGravity).radius, 0);
+  EXPECT_EQ(scaled_crater(0.001, 50, loam, kGravity).radius, 0);
+}
+
+TEST(LawsCrater, NothingJumpsAtTheGround) {
+  const Medium loam = soil(0.4, 0.2);
+  const CraterSize at = scaled_crater(1, 0, loam, kGravity);
+  for (const double height : {-1e-6, 1e-6}) {
+    const CraterSize near = scaled_crater(1, height, loam, kGravity);
+    EXPECT_NEAR(near.radius, at.radius, 1e-4);
+    EXPECT_NEAR(near.depth, at.depth, 1e-4);
+    EXPECT_NEAR(near.lip_share, at.lip_share, 1e-4);
+  }
+}
+
+// Chemical charges of 20 and 500 short tons in alluvium and basalt [Nordyke 1961], as apparent radii. One law, one
+// strength for each kind of ground; shots in one ground scatter by 10 to 30 %.
+TEST(LawsCrater, BuriedChargesAsMeasured) {
+  const Medium alluvium = soil(0.38, 0.19, 1600), basalt = soil(0.28, 0.16, 2650);
+  struct Shot {
+    const char* name;
+    const Medium& ground;
+    double tons, depth, radius;
+  };
+  for (const Shot& shot : {Shot{"Stagecoach II", alluvium, 18.144, 5.2121, 15.39},
+                           {"Stagecoach III", alluvium, 18.144, 10.424, 17.83},
+                           {"Stagecoach I", alluvium, 18.144, 24.384, 17.37},
+                           {"Scooter", alluvium, 453.59, 38.1, 46.94},
+                           {"Buckboard 11", basalt, 18.144, 7.7724, 13.65},
+                           {"Buckboard 12", basalt, 18.144, 13.015, 17.37},
+                           {"Buckboard 13", basalt, 18.144, 17.922, 11.22},
+                           {"Pre-Schooner II", basalt, 85.321, 21.641, 29.02}}) {
+    const double edge = 0.96 * scaled_crater(shot.tons, -shot.depth, shot.ground, kGravity).radius;  // at 5 % of depth
+    EXPECT_NEAR(edge, shot.radius, 0.25 * shot.radius) << shot.name;
+  }
+}
+
+TEST(LawsCrater, ProfileIsThePressuresExcess) {
+  EXPECT_EQ(crater_profile(0, 0, 3), 1);
+  EXPECT_NEAR(crater_profile(3, 0, 3), 0, 1e-12);
+  EXPECT_EQ(crater_profile(3.1, 0, 3), 0);
+  const double source = 3 * kSourceHeight, x2 = 2 * 2 + source * source, edge2 = 9 + source * source;
+  const auto pressure = [](double square) { return 1 / (square * square); };
+  EXPECT_NEAR(crater_profile(2, 0, 3), (pressure(x2) - pressure(edge2)) / (pressure(source * source) - pressure(edge2)),
+              1e-12);
+  EXPECT_GT(crater_profile(3, 1, 3), 0) << "a wall beside the charge is nearer to it";
+}
+
+TEST(LawsCrater, WhatCannotBeCompactedLeaves) {
+  const CraterSize size{.radius = 4, .depth = 2, .lip_share = 0.185};
+  EXPECT_EQ(leaving_share(size, 2, 0, 0.3), 0.185) << "loose soil takes it all";
+  EXPECT_NEAR(leaving_share(size, 2, 0, 0.03), 1 - 0.03 * 4.5 * 4 / 2, 1e-12);
+  EXPECT_EQ(leaving_share(size, 2, 0, 0), 1) << "rock takes none";
+  EXPECT_EQ(leaving_share(size, 0.1, 0, 0.03), 0.185) << "at the edge little sinks";
+}
+
+TEST(LawsCrater, EjectaLieHighOnTheLipAndThinBeyond) {
+  EXPECT_EQ(ejecta_profile(1), 0);
+  EXPECT_NEAR(ejecta_profile(1.1), 1, 1e-9);
+  EXPECT_NEAR(ejecta_profile(2.1) / ejecta_profile(1.9), std::pow(2.1 / 1.9, -3.86), 1e-9) << "[DNA 1984]";
+  EXPECT_NEAR(ejecta_profile(1.8), ejecta_profile(1.8001), 1e-4);
+  EXPECT_EQ(ejecta_profile(2.15), 0);
+}
+
+}  // namespace
+}  // namespace divot::laws
