@@ -16,8 +16,11 @@ struct Measurement {
   std::string name;  ///< `figure1/adaptive`
   std::size_t particles = 0;
   int threads = 1;
+  std::size_t count = 0;  ///< of bodies, bombs or vertices, where that is what a benchmark varies
+  int steps = 0;          ///< measured, where `stages` is their sum
   double ms_per_step = 0, ns_per_particle_step = 0;
-  double real_time_factor = 0;    ///< simulated / wall
+  double cpu_ms_per_step = 0;   ///< of all threads together: what a shared machine leaves undisturbed; 0: not measured
+  double real_time_factor = 0;  ///< simulated / wall
   std::vector<StageTime> stages;  ///< of all steps that were measured
   UpdateCounts updates;
   std::uint64_t state_hash = 0;
@@ -54,5 +57,14 @@ Result<Report> figure1(const Request& request);
 
 /// A step of a world with every particle awake: 100 to 2 million of them, Euler and RK4, one thread and two.
 Result<Report> scaling(const Request& request);
+
+/// One crater on ground of 10^4 to 10^7 vertices: time of a step, memory, loading.
+Result<Report> terrain_size(const Request& request);
+
+/// 1 to 1000 rolling balls and 1 to 100 bombs on one ground.
+Result<Report> bodies(const Request& request);
+
+/// Spheres on soft soil beside what Chrono's SCM terrain takes for them.
+Result<Report> rolling(const Request& request);
 
 }  // namespace divot::bench

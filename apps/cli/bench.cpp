@@ -42,9 +42,11 @@ Json to_json(const bench::Measurement& m) {
   for (const StageTime& stage : m.stages) stages[stage.name] = {{"ms", stage.ms}, {"calls", stage.calls}};
   return {{"name", m.name},
           {"particles", m.particles},
+          {"count", m.count},
           {"threads", m.threads},
           {"ms_per_step", m.ms_per_step},
           {"ns_per_particle_step", m.ns_per_particle_step},
+          {"cpu_ms_per_step", m.cpu_ms_per_step},
           {"real_time_factor", m.real_time_factor},
           {"stages", stages},
           {"updates",

@@ -22,13 +22,12 @@ bool list_awake(const state::Particles& p, const state::Soil& soil, const state:
                 std::vector<std::uint32_t>& wake, std::vector<std::uint32_t>& awake) {
   sort_unique(wake);
   std::erase_if(wake, [&](std::uint32_t v) { return is_awake(p, soil, surface, v); });
-  awake.clear();
-  bool slept = false;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (p.hold[i] == Hold::asleep) slept = true;
-    if (p.hold[i] == Hold::free || p.hold[i] == Hold::carried) awake.push_back(p.vertex[i]);
-  }
+  // Counting looks at all of them, but many at a time; a search that stops would not.
+  const bool slept = std::count(p.hold.begin(), p.hold.end(), Hold::asleep) > 0;
   if (wake.empty() && !slept) return false;
+  awake.clear();
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (p.hold[i] == Hold::free || p.hold[i] == Hold::carried) awake.push_back(p.vertex[i]);
   const auto middle = static_cast<std::ptrdiff_t>(awake.size());
   awake.insert(awake.end(), wake.begin(), wake.end());
   std::inplace_merge(awake.begin(), awake.begin() + middle, awake.end());

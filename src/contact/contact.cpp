@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "contact/gather.h"
 #include "contact/near.h"
@@ -71,9 +72,10 @@ void press(const Press& press, state::Particles& p, state::Soil& soil, const sta
 void move_bodies(std::span<state::Body> bodies, RigidBodies& rigid, const Situation& s,
                  std::vector<std::uint32_t>& wake, Scratch& scratch, const Jobs& jobs) {
   scratch.bodies.resize(bodies.size());
-  jobs.for_ranges(bodies.size(), 4, [&](std::size_t begin, std::size_t end) {
+  const auto meet = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) meet_ground(bodies[i], s, scratch.bodies[i]);
-  });
+  };
+  jobs.for_ranges(bodies.size(), 4, std::ref(meet));  // by reference: a copy would be an allocation
   std::vector<Vec3d>& before = scratch.before;
   before.clear();
   for (const state::Body& body : bodies) before.push_back(body.position);

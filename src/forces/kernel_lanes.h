@@ -48,12 +48,12 @@ struct Neighbours {
 };
 
 template <bool kRenew, bool kSoftened>
-DIVOT_INLINE Sum<Lanes> sum_bonds(const Arrays& a, std::size_t block, const Block& rows, const Terms& terms) {
+DIVOT_INLINE Sum<Lanes> sum_bonds(const Arrays& a, std::size_t block, const Block& rows, const Terms& terms,
+                                  const Reach& reach) {
   const Lanes x = rows.own(a.x), y = rows.own(a.y), z = rows.own(a.z);
   const Lanes vx = rows.own(a.vx), vy = rows.own(a.vy), vz = rows.own(a.vz);
   const Lanes zero(0.0f), mass = kSoftened ? rows.own(a.mass) : zero;
   const Lanes flow = kRenew && a.flowing ? rows.own(a.flow_rate) : zero;
-  const Reach reach = a.reach;
   Sum<Lanes> sum{zero, zero, zero};
   for (std::uint32_t slot = a.first_slot[block]; slot < a.first_slot[block + 1]; ++slot) {
     const Neighbours of{a.run[slot], a.neighbour + std::size_t{kLanes} * slot};
@@ -94,26 +94,38 @@ DIVOT_INLINE void add_own_of(const Arrays& a, const Block& rows, const Terms& te
   add_own(terms, own, sum);
 }
 
-// Flat: what is not inlined would take its vectors through memory.
+// The force on a block of one medium. With kCommon its law is eq. 6 with the paper's exponents, 2 and 4, which the
+// compiler then knows.
+template <bool kRenew, bool kSoftened, bool kCommon>
+DIVOT_INLINE void run_block(const Arrays& a, std::size_t block) {
+  // Copies: the compiler could not know that forces are not written into them.
+  Terms terms = a.terms[a.medium[block]];
+  Reach reach = a.reach;
+  if constexpr (kCommon) terms.medium.half_attraction = 1, terms.medium.half_repulsion = 2, reach.spring = false;
+  const std::size_t first = block * kLanes, left = a.count - first;
+  const Block rows{first, left < kLanes ? static_cast<std::uint32_t>(left) : kLanes};
+  Sum<Lanes> sum = sum_bonds<kRenew, kSoftened>(a, block, rows, terms, reach);
+  const Lanes zero(0.0f);
+  rows.put(a.held_pull, select(rows.is(a.hold, kAnchor), zero, sum.z));
+  add_own_of(a, rows, terms, sum);
+  const Mask free = rows.is(a.hold, kFree);
+  rows.put(a.fx, select(free, sum.x, zero));
+  rows.put(a.fy, select(free, sum.y, zero));
+  rows.put(a.fz, select(free, sum.z, zero));
+}
+
 template <bool kRenew, bool kSoftened>
-[[gnu::flatten]] void run(const Arrays& a, std::size_t begin, std::size_t end) {
+void run(const Arrays& a, std::size_t begin, std::size_t end) {
   for (std::size_t block = begin; block < end; ++block) {
     if (a.medium[block] == kSeveral) {
       plain(a, block, block + 1);
       continue;
     }
-    // A copy: the compiler could not know that forces are not written into it.
-    const Terms terms = a.terms[a.medium[block]];
-    const std::size_t first = block * kLanes, left = a.count - first;
-    const Block rows{first, left < kLanes ? static_cast<std::uint32_t>(left) : kLanes};
-    Sum<Lanes> sum = sum_bonds<kRenew, kSoftened>(a, block, rows, terms);
-    const Lanes zero(0.0f);
-    rows.put(a.held_pull, select(rows.is(a.hold, kAnchor), zero, sum.z));
-    add_own_of(a, rows, terms, sum);
-    const Mask free = rows.is(a.hold, kFree);
-    rows.put(a.fx, select(free, sum.x, zero));
-    rows.put(a.fy, select(free, sum.y, zero));
-    rows.put(a.fz, select(free, sum.z, zero));
+    const laws::Medium& medium = a.terms[a.medium[block]].medium;
+    if (medium.half_attraction == 1 && medium.half_repulsion == 2 && !a.reach.spring)
+      run_block<kRenew, kSoftened, true>(a, block);
+    else
+      run_block<kRenew, kSoftened, false>(a, block);
   }
 }
 

@@ -41,7 +41,7 @@ struct Pair {
 };
 
 template <class Real>
-Real squared_length(Real x, Real y, Real z) {
+DIVOT_INLINE Real squared_length(Real x, Real y, Real z) {
   return (x * x + y * y) + z * z;
 }
 
@@ -49,7 +49,7 @@ Real squared_length(Real x, Real y, Real z) {
 /// two came into range, at rest as they are, and is gone (0) out of range or unless it `stays`. Below 0 there is no
 /// pair.
 template <class Real, class Truth>
-Real renewed(const Terms& t, const Reach& reach, Real r_squared, Real r0, Truth stays) {
+DIVOT_INLINE Real renewed(const Terms& t, const Reach& reach, Real r_squared, Real r0, Truth stays) {
   using math::both, math::greatest, math::least, math::root, math::select;
   const Real zero = Real(0.0f), r = root(r_squared);
   const Real yielded = least(greatest(r0, r * Real(t.shortest)), r * Real(t.longest));
@@ -59,8 +59,8 @@ Real renewed(const Terms& t, const Reach& reach, Real r_squared, Real r0, Truth 
 
 /// Adds cohesion (eq. 6 or 1) and viscous damping (eq. 2) of one bond; nothing where there is none.
 template <class Real>
-void add_bond(const Terms& t, const Reach& reach, const Pair<Real>& p, Real r0, Real softened, Real damping,
-              Sum<Real>& sum) {
+DIVOT_INLINE void add_bond(const Terms& t, const Reach& reach, const Pair<Real>& p, Real r0, Real softened,
+                           Real damping, Sum<Real>& sum) {
   using math::both, math::greatest, math::least, math::root, math::select;
   const Real zero = Real(0.0f), one = Real(1.0f);
   const Real cohesion = reach.spring ? laws::mass_spring(t.medium, root(p.r_squared), r0)
@@ -77,12 +77,12 @@ void add_bond(const Terms& t, const Reach& reach, const Pair<Real>& p, Real r0, 
 
 /// Share of a pair's stiffness that a substep can follow, and its damping, by the lighter of the two masses.
 template <class Real>
-Real softening(const Terms& t, Real lighter) {
+DIVOT_INLINE Real softening(const Terms& t, Real lighter) {
   using math::least;
   return least(Real(1.0f), lighter * Real(t.soften_bonds));
 }
 template <class Real>
-Real softened_damping(const Terms& t, Real lighter) {
+DIVOT_INLINE Real softened_damping(const Terms& t, Real lighter) {
   using math::least;
   return least(Real(t.medium.viscous_damping), lighter * Real(t.soften_damping));
 }
@@ -97,7 +97,7 @@ struct Own {
 /// Adds eq. 3 and the ground. Soil that a blast has made flow has no skeleton left: it resists by drag alone, in the
 /// place of both, until it rests.
 template <class Real>
-void add_own(const Terms& t, const Own<Real>& p, Sum<Real>& sum) {
+DIVOT_INLINE void add_own(const Terms& t, const Own<Real>& p, Sum<Real>& sum) {
   using math::select;
   const auto flows = p.flow_rate > Real(0.0f);
   const Real gamma = select(flows, p.mass * p.flow_rate, Real(t.medium.areal_damping) * p.area);

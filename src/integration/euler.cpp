@@ -1,18 +1,33 @@
-#include "integration/integrators.h"
+#include <atomic>
+#include <functional>
+
+#include "integration/axis.h"
 
 namespace divot::integration {
 
-void euler(const state::MotionView& m, std::span<const float> mass, double time, double h, const Forces& forces,
+bool euler(const state::MotionView& m, std::span<const float> mass, double time, double h, const Forces& forces,
            const Jobs& jobs) {
   const ForceView f = forces(m, time);
   const float dt = static_cast<float>(h);
-  jobs.for_ranges(mass.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const float impulse = dt / mass[i];
-      m.vx[i] += impulse * f.x[i], m.vy[i] += impulse * f.y[i], m.vz[i] += impulse * f.z[i];
-      m.x[i] += dt * m.vx[i], m.y[i] += dt * m.vy[i], m.z[i] += dt * m.vz[i];
-    }
-  });
+  std::atomic<bool> numbers = true;
+  const auto move = [&](std::size_t begin, std::size_t end) {
+    const auto axis = [&](const float* force, float* x, float* v) {
+      const float* const kg = mass.data();
+      int bad = 0;
+      for (std::size_t i = begin; i < end; ++i) {
+        const float speed = v[i] + dt / kg[i] * force[i], place = x[i] + dt * speed;
+        v[i] = speed, x[i] = place;
+        bad |= is_no_number(speed) | is_no_number(place);
+      }
+      return bad;
+    };
+    const int bad = axis(f.x.data(), m.x.data(), m.vx.data()) | axis(f.y.data(), m.y.data(), m.vy.data()) |
+                    axis(f.z.data(), m.z.data(), m.vz.data());
+    if (bad != 0) numbers = false;
+  };
+  // By reference: a copy in std::function would be an allocation.
+  jobs.for_ranges(mass.size(), kGrain, std::ref(move));
+  return numbers;
 }
 
 }  // namespace divot::integration

@@ -25,12 +25,13 @@ struct Scratch {
   state::Motion sum;    ///< weighted sum of the stages' slopes
 };
 
-/// Semi-implicit Euler: velocity from the force, then position from the new velocity. Order 1.
-void euler(const state::MotionView& motion, std::span<const float> mass, double time, double h, const Forces& forces,
+/// Semi-implicit Euler: velocity from the force, then position from the new velocity. Order 1. False when something is
+/// not finite any more.
+bool euler(const state::MotionView& motion, std::span<const float> mass, double time, double h, const Forces& forces,
            const Jobs& jobs);
 
-/// Classical Runge-Kutta of order 4: four evaluations of the forces.
-void rk4(const state::MotionView& motion, std::span<const float> mass, double time, double h, const Forces& forces,
+/// Classical Runge-Kutta of order 4: four evaluations of the forces. False likewise.
+bool rk4(const state::MotionView& motion, std::span<const float> mass, double time, double h, const Forces& forces,
          Scratch& scratch, const Jobs& jobs);
 
 }  // namespace divot::integration

@@ -1,63 +1,85 @@
-#include "integration/integrators.h"
+#include <atomic>
+#include <functional>
+
+#include "integration/axis.h"
 
 namespace divot::integration {
 namespace {
 
-// One coordinate of one stage: adds the stage's slopes to the sums with weight w and, unless it is the last stage,
-// moves the trial a further `step` from the start along them. Slopes are the trial's velocity and f / mass.
+// One coordinate. A stage's slopes are the speed it was evaluated at and force / mass. Bound by bandwidth: each pass
+// reads and writes as little as it can, and the first and last stage do the copying and adding that would be passes of
+// their own.
 struct Axis {
-  std::span<const float> x0, v0, force;
-  std::span<float> x, v, sum_x, sum_v;
+  const float *mass, *force;
+  float *x0, *v0;        // at the start of the step
+  float *x, *v;          // the trial, where stages are evaluated
+  float *sum_x, *sum_v;  // of the stages' weighted slopes
 };
 
-void add_stage(const Axis& a, std::span<const float> mass, float weight, float step, bool first, std::size_t begin,
-               std::size_t end) {
+// Starts the sums and sends the trial `step` from the start.
+void first_stage(const Axis& a, float step, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
-    const float slope_x = a.v[i], slope_v = a.force[i] / mass[i];
-    a.sum_x[i] = (first ? 0 : a.sum_x[i]) + weight * slope_x;
-    a.sum_v[i] = (first ? 0 : a.sum_v[i]) + weight * slope_v;
-    a.x[i] = a.x0[i] + step * slope_x;
-    a.v[i] = a.v0[i] + step * slope_v;
+    const float slope_x = a.v0[i], slope_v = a.force[i] / a.mass[i];
+    a.sum_x[i] = slope_x, a.sum_v[i] = slope_v;
+    a.x[i] = a.x0[i] + step * slope_x, a.v[i] = a.v0[i] + step * slope_v;
   }
+}
+
+// Adds twice the slopes and sends the trial `step` from the start.
+void middle_stage(const Axis& a, float step, std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const float slope_x = a.v[i], slope_v = a.force[i] / a.mass[i];
+    a.sum_x[i] += 2 * slope_x, a.sum_v[i] += 2 * slope_v;
+    a.x[i] = a.x0[i] + step * slope_x, a.v[i] = a.v0[i] + step * slope_v;
+  }
+}
+
+// Adds the last slopes and moves the start by a sixth of the sums times the step: 1 when something is no number.
+int last_stage(const Axis& a, float sixth, std::size_t begin, std::size_t end) {
+  int bad = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const float place = a.x0[i] + sixth * (a.sum_x[i] + a.v[i]);
+    const float speed = a.v0[i] + sixth * (a.sum_v[i] + a.force[i] / a.mass[i]);
+    a.x0[i] = place, a.v0[i] = speed;
+    bad |= is_no_number(speed) | is_no_number(place);
+  }
+  return bad;
 }
 
 }  // namespace
 
-void rk4(const state::MotionView& m, std::span<const float> mass, double time, double h, const Forces& forces,
+bool rk4(const state::MotionView& m, std::span<const float> mass, double time, double h, const Forces& forces,
          Scratch& scratch, const Jobs& jobs) {
   const std::size_t count = mass.size();
   const float dt = static_cast<float>(h);
   scratch.trial.resize(count);
   scratch.sum.resize(count);
   const state::MotionView t = scratch.trial.view(), s = scratch.sum.view();
-  jobs.for_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      t.x[i] = m.x[i], t.y[i] = m.y[i], t.z[i] = m.z[i];
-      t.vx[i] = m.vx[i], t.vy[i] = m.vy[i], t.vz[i] = m.vz[i];
-    }
-  });
-
-  // Stage k is evaluated `at` into the step, weighs w / 6 and sends the trial `step` from the start for stage k + 1.
-  struct Stage {
-    float at, weight, step;
+  const auto for_each_axis = [&](const ForceView& f, const auto& work) {
+    const auto range = [&](std::size_t begin, std::size_t end) {
+      const float* const kg = mass.data();
+      work(Axis{kg, f.x.data(), m.x.data(), m.vx.data(), t.x.data(), t.vx.data(), s.x.data(), s.vx.data()}, begin, end);
+      work(Axis{kg, f.y.data(), m.y.data(), m.vy.data(), t.y.data(), t.vy.data(), s.y.data(), s.vy.data()}, begin, end);
+      work(Axis{kg, f.z.data(), m.z.data(), m.vz.data(), t.z.data(), t.vz.data(), s.z.data(), s.vz.data()}, begin, end);
+    };
+    // By reference: a copy in std::function would be an allocation.
+    jobs.for_ranges(count, kGrain, std::ref(range));
   };
-  constexpr Stage kStages[] = {{0, 1, 0.5f}, {0.5f, 2, 0.5f}, {0.5f, 2, 1}, {1, 1, 0}};
-  for (const Stage& stage : kStages) {
-    const ForceView f = forces(t, time + stage.at * h);
-    const bool first = &stage == kStages;
-    jobs.for_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {
-      add_stage({m.x, m.vx, f.x, t.x, t.vx, s.x, s.vx}, mass, stage.weight, stage.step * dt, first, begin, end);
-      add_stage({m.y, m.vy, f.y, t.y, t.vy, s.y, s.vy}, mass, stage.weight, stage.step * dt, first, begin, end);
-      add_stage({m.z, m.vz, f.z, t.z, t.vz, s.z, s.vz}, mass, stage.weight, stage.step * dt, first, begin, end);
-    });
-  }
-  const float sixth = dt / 6;
-  jobs.for_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      m.x[i] += sixth * s.x[i], m.y[i] += sixth * s.y[i], m.z[i] += sixth * s.z[i];
-      m.vx[i] += sixth * s.vx[i], m.vy[i] += sixth * s.vy[i], m.vz[i] += sixth * s.vz[i];
-    }
-  });
+
+  const auto first = [&](const Axis& a, std::size_t begin, std::size_t end) { first_stage(a, 0.5f * dt, begin, end); };
+  const auto second = [&](const Axis& a, std::size_t begin, std::size_t end) {
+    middle_stage(a, 0.5f * dt, begin, end);
+  };
+  const auto third = [&](const Axis& a, std::size_t begin, std::size_t end) { middle_stage(a, dt, begin, end); };
+  std::atomic<bool> numbers = true;
+  const auto last = [&](const Axis& a, std::size_t begin, std::size_t end) {
+    if (last_stage(a, dt / 6, begin, end) != 0) numbers = false;
+  };
+  for_each_axis(forces(m, time), first);
+  for_each_axis(forces(t, time + 0.5 * h), second);
+  for_each_axis(forces(t, time + 0.5 * h), third);
+  for_each_axis(forces(t, time + h), last);
+  return numbers;
 }
 
 }  // namespace divot::integration

@@ -46,7 +46,7 @@ Real shear_strength(const Medium& s, Real p) {
 
 /// Share of the strength that shear displacement j mobilises. [Janosi & Hanamoto 1961]
 template <class Real>
-Real mobilised_shear(const Medium& s, Real j) {
+DIVOT_INLINE Real mobilised_shear(const Medium& s, Real j) {
   return Real(1) - math::exponential(-j / Real(s.shear_modulus));
 }
 

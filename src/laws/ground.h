@@ -36,8 +36,8 @@ struct Traction {
 /// permanent sinkage; `stiffness` and `damping` are held_stiffness() and held_damping(). Pressed, it answers by Bekker;
 /// pulled, it holds by cohesion; pushed sideways, by Janosi's shear.
 template <class Real>
-Traction<Real> ground_traction(const Medium& s, float stiffness, float damping, Real dx, Real dy, Real dz, Real vx,
-                               Real vy, Real vz, Real plastic) {
+DIVOT_INLINE Traction<Real> ground_traction(const Medium& s, float stiffness, float damping, Real dx, Real dy, Real dz,
+                                            Real vx, Real vy, Real vz, Real plastic) {
   using math::greatest, math::least, math::root, math::select, math::to_the_power;
   const Real zero = Real(0.0f), sunk = -dz, elastic = Real(stiffness) * sunk;
 

@@ -9,7 +9,7 @@ namespace divot::laws {
 
 /// q^k for a small whole k > 0.
 template <class Real>
-Real power(Real q, int k) {
+DIVOT_INLINE Real power(Real q, int k) {
   Real p = q;
   for (int i = 1; i < k; ++i) p = p * q;
   return p;
@@ -24,7 +24,7 @@ inline float lennard_jones_potential(const Medium& s, float r, float r0) {
 /// Force of eq. 6 over distance, N/m: times (x_i - x_j) it is the force on i, -grad Phi. Zero at r0, positive
 /// (repulsive) below.
 template <class Real>
-Real lennard_jones(const Medium& s, Real r_squared, Real r0) {
+DIVOT_INLINE Real lennard_jones(const Medium& s, Real r_squared, Real r0) {
   using math::to_the_power;
   // -dPhi/dr / r = e0 m n / (n - m) [ (r0/r)^n - (r0/r)^m ] / r^2 with e0 = bond_energy r0^2. For even m and n the
   // powers of q = (r0/r)^2 need neither a root nor a power function.

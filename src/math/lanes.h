@@ -4,6 +4,8 @@
 // called.
 
 #include <cstdint>
+
+#include "math/real.h"
 #ifdef __SSE2__
 #include <immintrin.h>
 #endif
@@ -13,8 +15,6 @@
 #endif
 
 namespace divot::math::DIVOT_LANES {
-
-#define DIVOT_INLINE [[gnu::always_inline]] inline
 
 using FloatVector = float __attribute__((vector_size(32)));
 using IntVector = std::int32_t __attribute__((vector_size(32)));

@@ -9,6 +9,9 @@
 // exponentials of floats are polynomials of our own, because their bits must not depend on how wide the registers are.
 namespace divot::math {
 
+/// For templates that lanes go through: what is not inlined takes its vectors through memory.
+#define DIVOT_INLINE [[gnu::always_inline]] inline
+
 inline float select(bool condition, float yes, float no) { return condition ? yes : no; }
 inline double select(bool condition, double yes, double no) { return condition ? yes : no; }
 inline bool both(bool a, bool b) { return a && b; }
@@ -38,7 +41,7 @@ inline Parts<float> parts(float x) {
 
 /// e^x, to 2 units in the last place; x is cut to [-87, 88]. [Cephes, expf]
 template <class Real>
-Real exponential(Real x) {
+DIVOT_INLINE Real exponential(Real x) {
   x = least(greatest(x, Real(-87.0f)), Real(88.0f));
   // To the nearest whole number: what is added leaves no room for fractions.
   const Real n = (x * Real(1.44269504f) + Real(12582912.0f)) - Real(12582912.0f);
@@ -55,7 +58,7 @@ inline double exponential(double x) { return std::exp(x); }
 
 /// Natural logarithm, to 2 units in the last place; x > 0 and not denormal. [Cephes, logf]
 template <class Real>
-Real logarithm(Real x) {
+DIVOT_INLINE Real logarithm(Real x) {
   const auto [mantissa, exponent] = parts(x);
   const Real r = mantissa - Real(1.0f), r_squared = r * r;
   Real p = Real(7.0376836292e-2f);
@@ -73,7 +76,7 @@ Real logarithm(Real x) {
 
 /// x^y for x >= 0: 0 below the least number that is not denormal. Relative error 1e-7 (2 + |y ln x|).
 template <class Real>
-Real to_the_power(Real x, float y) {
+DIVOT_INLINE Real to_the_power(Real x, float y) {
   const Real least_normal = Real(1.17549435e-38f);
   return select(x < least_normal, Real(0.0f), exponential(Real(y) * logarithm(greatest(x, least_normal))));
 }

@@ -1,6 +1,7 @@
 #include "neighbours/neighbours.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <functional>
@@ -11,7 +12,7 @@
 namespace divot::neighbours {
 namespace {
 
-constexpr std::size_t kGrain = 1024;
+constexpr std::size_t kGrain = 1024, kDriftPart = 1 << 14;
 
 float distance_squared(const state::Particles& p, std::size_t i, std::size_t j) {
   const float dx = p.x[i] - p.x[j], dy = p.y[i] - p.y[j], dz = p.z[i] - p.z[j];
@@ -20,13 +21,39 @@ float distance_squared(const state::Particles& p, std::size_t i, std::size_t j) 
 
 // Could two particles have come nearer to each other by more than the skin since the rows were built? Only motion
 // against each other counts: what all have in common, half the extent of their displacements, is taken off first.
-bool has_drifted(const state::Particles& p, const Index& index, float skin) {
-  math::Aabb moved;
-  for (std::size_t i = 0; i < p.size(); ++i) moved.include(p.position(i) - Vec3{index.x[i], index.y[i], index.z[i]});
-  return p.size() > 0 && length(moved.high - moved.low) > skin;
+bool has_drifted(const state::Particles& p, Index& index, float skin, const Jobs& jobs) {
+  const std::size_t parts = (p.size() + kDriftPart - 1) / kDriftPart;
+  index.drift.assign(parts, {});
+  const auto measure = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t part = begin; part < end; ++part) {
+      const std::size_t first = part * kDriftPart, last = std::min(p.size(), first + kDriftPart);
+      math::Aabb& moved = index.drift[part];
+      const auto extent = [&](const float* now, const float* then, float& low, float& high) {
+        // Eight at a time, as wide as registers are: the compiler may not reorder a running minimum by itself.
+        std::array<float, 8> least, most;
+        least.fill(math::Aabb::kInf), most.fill(-math::Aabb::kInf);
+        std::size_t i = first;
+        for (; i + 8 <= last; i += 8)
+          for (std::size_t lane = 0; lane < 8; ++lane) {
+            const float by = now[i + lane] - then[i + lane];
+            least[lane] = by < least[lane] ? by : least[lane], most[lane] = by > most[lane] ? by : most[lane];
+          }
+        for (; i < last; ++i)
+          least[0] = std::min(least[0], now[i] - then[i]), most[0] = std::max(most[0], now[i] - then[i]);
+        low = *std::min_element(least.begin(), least.end()), high = *std::max_element(most.begin(), most.end());
+      };
+      extent(p.x.data(), index.x.data(), moved.low.x, moved.high.x);
+      extent(p.y.data(), index.y.data(), moved.low.y, moved.high.y);
+      extent(p.z.data(), index.z.data(), moved.low.z, moved.high.z);
+    }
+  };
+  jobs.for_ranges(parts, 1, std::ref(measure));
+  math::Aabb all;
+  for (const math::Aabb& moved : index.drift) all.include(moved);
+  return p.size() > 0 && length(all.high - all.low) > skin;
 }
 
-bool is_due(const state::Particles& p, const Index& index, const Reach& reach, bool particles_changed) {
+bool is_due(const state::Particles& p, Index& index, const Reach& reach, bool particles_changed, const Jobs& jobs) {
   if (particles_changed) return true;
   switch (reach.policy.kind) {
     case UpdatePolicy::Kind::every_step:
@@ -34,7 +61,7 @@ bool is_due(const state::Particles& p, const Index& index, const Reach& reach, b
     case UpdatePolicy::Kind::every:
       return index.steps_since_build >= static_cast<std::uint64_t>(reach.policy.steps);
     case UpdatePolicy::Kind::adaptive:
-      return has_drifted(p, index, reach.skin);
+      return has_drifted(p, index, reach.skin, jobs);
   }
   return true;
 }
@@ -124,7 +151,7 @@ void rebuild(const state::Particles& p, state::Bonds& bonds, Index& index, const
 void update(const state::Particles& particles, state::Bonds& bonds, Index& index, const Reach& reach,
             bool particles_changed, const Jobs& jobs) {
   ++index.steps_since_build;
-  if (is_due(particles, index, reach, particles_changed)) rebuild(particles, bonds, index, reach, jobs);
+  if (is_due(particles, index, reach, particles_changed, jobs)) rebuild(particles, bonds, index, reach, jobs);
 }
 
 }  // namespace divot::neighbours

@@ -8,6 +8,7 @@
 #include "geometry/column_grid.h"
 #include "geometry/kd_tree.h"
 #include "geometry/rows.h"
+#include "math/aabb.h"
 #include "state/particles.h"
 
 // stage     neighbours: rows of neighbours
@@ -34,6 +35,7 @@ struct Index {
   std::vector<std::uint32_t> vertex;      ///< [particle] of the rows, ascending
   std::vector<std::uint32_t> old_vertex;  ///< the same of the rows before
   state::Bonds old_bonds;
+  std::vector<math::Aabb> drift;     ///< scratch
   std::vector<std::uint32_t> slots;  ///< [block] scratch
   std::uint64_t steps_since_build = 0;
   std::uint64_t rebuilds = 0, missed_pairs = 0;

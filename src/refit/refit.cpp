@@ -1,13 +1,27 @@
 #include "refit/refit.h"
 
-#include <algorithm>
-
 namespace divot::refit {
 namespace {
 
+// Each vertex once, however often it moves: a bit for each says whether it is in the list.
+void note_moved(Tree& tree, const std::vector<std::uint32_t>& moved, std::size_t vertices) {
+  if (tree.is_moved.size() < vertices / 64 + 1) tree.is_moved.resize(vertices / 64 + 1, 0);
+  for (const std::uint32_t vertex : moved) {
+    std::uint64_t& word = tree.is_moved[vertex / 64];
+    const std::uint64_t bit = std::uint64_t{1} << vertex % 64;
+    if ((word & bit) != 0) continue;
+    word |= bit;
+    tree.moved.push_back(vertex);
+  }
+}
+
+void forget_moved(Tree& tree) {
+  for (const std::uint32_t vertex : tree.moved) tree.is_moved[vertex / 64] = 0;
+  tree.moved.clear();
+  tree.drift = 0;
+}
+
 void refit_moved(Tree& tree, const state::Surface& surface) {
-  std::sort(tree.moved.begin(), tree.moved.end());
-  tree.moved.erase(std::unique(tree.moved.begin(), tree.moved.end()), tree.moved.end());
   for (const std::uint32_t vertex : tree.moved)
     surface.mesh.for_each_face(vertex, [&](std::uint32_t face) { tree.bvh.touch(face, surface.position); });
   tree.refits += tree.bvh.refit(surface.position) > 0;
@@ -17,8 +31,7 @@ void refit_moved(Tree& tree, const state::Surface& surface) {
 
 void build(Tree& tree, const state::Surface& surface, const Jobs& jobs) {
   tree.bvh.build(surface.mesh.triangles(), surface.position, tree.margin, jobs);
-  tree.moved.clear();
-  tree.drift = 0;
+  forget_moved(tree);
   ++tree.rebuilds;
 }
 
@@ -32,12 +45,11 @@ void update(Tree& tree, const state::Surface& surface, const std::vector<std::ui
     return;
   }
   tree.drift += distance;
-  tree.moved.insert(tree.moved.end(), moved.begin(), moved.end());
+  note_moved(tree, moved, surface.position.size());
   if (tree.drift <= tree.margin) return;
   if (tree.bvh.degradation() > kWorn) return build(tree, surface, jobs);
   refit_moved(tree, surface);
-  tree.moved.clear();
-  tree.drift = 0;
+  forget_moved(tree);
 }
 
 }  // namespace divot::refit

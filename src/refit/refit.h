@@ -19,9 +19,10 @@ namespace divot::refit {
 /// The hierarchy over the surface and what has moved since it was last right.
 struct Tree {
   geometry::Bvh bvh;
-  float margin = 0;                  ///< m by which leaf boxes are larger than their faces
-  std::vector<std::uint32_t> moved;  ///< vertices that moved since, repeats allowed
-  float drift = 0;                   ///< m, at least as far as any of them moved
+  float margin = 0;                     ///< m by which leaf boxes are larger than their faces
+  std::vector<std::uint32_t> moved;     ///< vertices that moved since, each once
+  std::vector<std::uint64_t> is_moved;  ///< [vertex / 64] bits: in `moved`
+  float drift = 0;                      ///< m, at least as far as any of them moved
   std::uint64_t steps = 0, refits = 0, rebuilds = 0;
 };
 

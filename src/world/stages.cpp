@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "world/state.h"
 
@@ -22,17 +23,29 @@ struct Substeps {
   laws::Resolution resolution;
 };
 
-// The highest frequency and damping rate of any free particle, 1/s.
-double fastest_rate(const state::Particles& p, std::span<const laws::Medium> media) {
+// The least mass of a particle of each medium that is awake; infinite where there is none.
+void find_least_masses(const state::Particles& p, std::size_t media, std::vector<float>& least) {
+  least.assign(media, std::numeric_limits<float>::infinity());
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (p.hold[i] != Hold::anchor) least[p.material[i]] = std::min(least[p.material[i]], p.mass[i]);
+}
+
+// The highest frequency and damping rate of any particle that is awake, 1/s: that of the lightest of each medium, and
+// the drag of what a blast makes flow. Takes no look at the particles.
+double fastest_rate(std::span<const float> least_mass, std::span<const laws::Medium> media,
+                    std::span<const state::Blast> blasts) {
+  double flow = 0;
+  for (const state::Blast& blast : blasts)
+    if (blast.active) flow = std::max<double>(flow, blast.flow_rate);
   double fastest = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (p.hold[i] != Hold::free) continue;
-    const laws::Medium& m = media[p.material[i]];
-    const double ground = m.ground ? m.elastic_stiffness / m.areal_mass : 0;
-    const double frequency = std::sqrt(laws::lattice_stiffness(m) / p.mass[i] + ground);
+  for (std::size_t k = 0; k < least_mass.size(); ++k) {
+    const laws::Medium& m = media[k];
+    if (!std::isfinite(least_mass[k])) continue;
+    const double mass = least_mass[k], ground = m.ground ? m.elastic_stiffness / m.areal_mass : 0;
+    const double frequency = std::sqrt(laws::lattice_stiffness(m) / mass + ground);
     const double drag = m.ground ? m.ground_damping / m.areal_mass : 0;
     const double damping =
-        laws::kLatticeDamping * m.viscous_damping / p.mass[i] + m.areal_damping / m.areal_mass + drag + p.flow_rate[i];
+        laws::kLatticeDamping * m.viscous_damping / mass + m.areal_damping / m.areal_mass + drag + flow;
     fastest = std::max({fastest, frequency, damping});
   }
   return fastest;
@@ -43,9 +56,9 @@ bool is_violent(const state::Blast& blast, double time) {
   return blast.active && time < blast.start + 17 * blast.pulse;
 }
 
-Substeps plan_substeps(const state::Particles& p, std::span<const laws::Medium> media,
+Substeps plan_substeps(std::span<const float> least_mass, std::span<const laws::Medium> media,
                        std::span<const state::Blast> blasts, double time, double dt) {
-  double wanted = dt * fastest_rate(p, media);
+  double wanted = dt * fastest_rate(least_mass, media, blasts);
   for (const state::Blast& blast : blasts)
     if (is_violent(blast, time)) wanted = std::max(wanted, dt / (kPulseShare * blast.pulse));
   Substeps plan;
@@ -56,15 +69,12 @@ Substeps plan_substeps(const state::Particles& p, std::span<const laws::Medium> 
 }
 
 // Puts to rest, at the last place that was a number, whatever left the numbers.
-bool rescue(state::Particles& p, const state::Surface& surface) {
-  bool any = false;
+void rescue(state::Particles& p, const state::Surface& surface) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (is_finite(p.position(i)) && is_finite(p.velocity(i))) continue;
     p.set_position(i, surface.position[p.vertex[i]]);
     p.set_velocity(i, {});
-    any = true;
   }
-  return any;
 }
 
 bool rescue(state::Body& body, const Vec3d& last) {
@@ -137,7 +147,8 @@ void World::Impl::find_neighbours(bool particles_changed) {
 
 void World::Impl::move_particles(bool particles_changed, StepReport& report) {
   if (particles.size() == 0) return;
-  const Substeps plan = plan_substeps(particles, media, blasts, time(), scene.dt);
+  if (particles_changed) find_least_masses(particles, media.size(), least_mass);
+  const Substeps plan = plan_substeps(least_mass, media, blasts, time(), scene.dt);
   report.substeps = plan.count;
   report.substeps_limited = plan.limited;
   const forces::Field field{
@@ -160,15 +171,16 @@ void World::Impl::move_particles(bool particles_changed, StepReport& report) {
     const bool blast_acts = std::any_of(blasts.begin(), blasts.end(), [](const state::Blast& b) { return b.active; });
     const bool rk4 =
         scene.solver.integrator == Integrator::rk4 || (scene.solver.integrator == Integrator::automatic && blast_acts);
-    timed(Stage::integration, [&] {
-      if (rk4)
-        integration::rk4(motion, p.mass, at, h, evaluate, integration_scratch, *jobs);
-      else
-        integration::euler(motion, p.mass, at, h, evaluate, *jobs);
+    const bool numbers = timed(Stage::integration, [&] {
+      return rk4 ? integration::rk4(motion, p.mass, at, h, evaluate, integration_scratch, *jobs)
+                 : integration::euler(motion, p.mass, at, h, evaluate, *jobs);
     });
+    if (!numbers) {
+      rescue(p, surface);
+      report.not_finite = true;
+    }
     timed(Stage::forces, [&] { forces::yield(p, soil, media, plan.resolution, *jobs); });
   }
-  report.not_finite |= rescue(p, surface);
 }
 
 void World::Impl::settle_ground() {
@@ -179,7 +191,12 @@ void World::Impl::settle_ground() {
         static_cast<std::uint16_t>(std::clamp(std::ceil(kStillTime / scene.dt), 2.0, 60000.0))};
     const settle::Step step{time() + scene.dt, scene.dt, -scene.gravity.z};
     settle::update(particles, soil, surface, blasts, media, stillness, step, moved, settle_scratch, *jobs);
-    for (const std::uint32_t vertex : moved.vertices) dirty_chunk[vertex / kDirtyChunk] = true;
+    std::uint32_t last = kNone;
+    for (const std::uint32_t vertex : moved.vertices) {
+      if (vertex / kDirtyChunk == last) continue;
+      last = vertex / kDirtyChunk;
+      dirty_chunk[last] = true;
+    }
   });
 }
 

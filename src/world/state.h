@@ -67,6 +67,7 @@ struct World::Impl {
 
   std::uint64_t step_count = 0;
   std::size_t peak_particles = 0;
+  std::vector<float> least_mass;  ///< [material] kg, of the particles that are awake
   core::Timers<static_cast<std::size_t>(Stage::count)> timers;
 
   double time() const { return static_cast<double>(step_count) * scene.dt; }

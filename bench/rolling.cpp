@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "bench/stepping.h"
+
+namespace divot::bench {
+namespace {
+
+// What Chrono's SCM terrain takes for a step of its own, berms off and on, one thread: measured beside divot on the
+// same two shared cores with Chrono at commit 7689fbc, g++ 12 -O3 -march=native; two digits.
+struct Peer {
+  int spheres;
+  double without_berms_ms, with_berms_ms;
+};
+struct Setup {
+  const char* scene;
+  double lane;  // m of ground for each sphere
+  std::array<Peer, 3> peers;
+};
+constexpr std::array<Setup, 2> kSetups = {
+    Setup{"rolling_5cm", 4, {Peer{1, 1.40, 1.59}, Peer{10, 17.4, 28.4}, Peer{100, 215, 340}}},
+    Setup{"rolling_2cm", 4, {Peer{1, 8.6, 10.5}, Peer{0, 0, 0}, Peer{0, 0, 0}}}};
+
+// The file's sphere, and as many more beside it, each on ground of its own.
+Scene widened(Scene scene, int spheres, double lane) {
+  auto& grid = std::get<GridTerrain>(scene.terrain.shape);
+  grid.rows = static_cast<int>(std::lround(spheres * lane / grid.spacing)) + 1;
+  const BodySettings first = scene.bodies.at(0);
+  scene.bodies.clear();
+  for (int k = 0; k < spheres; ++k) {
+    BodySettings sphere = first;
+    sphere.name = fmt::format("sphere {}", k + 1);
+    sphere.position.y = lane * (k - 0.5 * (spheres - 1));
+    scene.bodies.push_back(sphere);
+  }
+  return scene;
+}
+
+}  // namespace
+
+Result<Report> rolling(const Request& request) {
+  Report report;
+  std::string beside;
+  for (const Setup& setup : kSetups) {
+    const auto file = std::filesystem::path(request.scenes) / fmt::format("{}.toml", setup.scene);
+    const auto scene = load_scene(file.string());
+    if (!scene) return tl::unexpected(scene.error());
+    for (const Peer& peer : setup.peers) {
+      if (peer.spheres == 0 || static_cast<std::size_t>(peer.spheres) > request.most) continue;
+      auto world = World::create(widened(*scene, peer.spheres, setup.lane), std::make_shared<const Jobs>(1));
+      if (!world) return tl::unexpected(world.error());
+      auto m = measure_steps(fmt::format("rolling/{}", setup.scene), *world, {.warm_up = 50, .steps = 100});
+      if (!m) return tl::unexpected(m.error());
+      m->count = static_cast<std::size_t>(peer.spheres);
+      const BodyView sphere = world->bodies().front();
+      beside += fmt::format(
+          "{} x {}: {:.2f} ms CPU a step at {:.1f} m/s, {:.0f} mm deep; Chrono SCM {} ms, with berms {} ms: {:.0f} and "
+          "{:.0f} times\n",
+          m->count, setup.scene, m->cpu_ms_per_step, length(sphere.velocity), 1e3 * sphere.sinkage,
+          peer.without_berms_ms, peer.with_berms_ms, peer.without_berms_ms / m->cpu_ms_per_step,
+          peer.with_berms_ms / m->cpu_ms_per_step);
+      report.results.push_back(std::move(*m));
+    }
+  }
+  report.text = "rolling: spheres of 2000 kg on soft soil, as Chrono's SCM terrain is run\n" +
+                table(report.results, "spheres") + beside;
+  cli::CurveChart chart = curves("rolling", "A step of 2 ms by spheres, one thread", "spheres");
+  for (const Measurement& m : report.results) add_point(chart, m.name, static_cast<double>(m.count), m.ms_per_step);
+  for (const Peer& peer : kSetups[0].peers)
+    add_point(chart, "Chrono SCM, 5 cm, with berms", peer.spheres, peer.with_berms_ms);
+  report.line_charts.push_back(chart);
+  return report;
+}
+
+}  // namespace divot::bench
