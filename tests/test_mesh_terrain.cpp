@@ -183,11 +183,16 @@ TEST(MeshTerrain, HasNoRasterAndWritesTheRest) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(MeshTerrain, ASceneFileCannotNameOne) {
-  const auto scene = parse_scene("[terrain]\nmesh = \"a.obj\"\n", "a.toml");
-  ASSERT_FALSE(scene);
-  EXPECT_EQ(scene.error().front().line, 2);
-  EXPECT_NE(scene.error().front().text().find("meshes are not supported"), std::string::npos);
+TEST(MeshTerrain, ASceneFileNamesOne) {
+  const auto scene = parse_scene("[terrain]\nmesh = \"a.obj\"\nup = \"y\"\nscale = 0.01\n", "here/a.toml");
+  ASSERT_TRUE(scene) << scene.error().front().text();
+  const auto& mesh = std::get<MeshTerrain>(scene->terrain.shape);
+  EXPECT_EQ(mesh.path, "a.obj");
+  EXPECT_EQ(mesh.up, UpAxis::y);
+  EXPECT_EQ(mesh.scale, 0.01);
+  const auto world = World::create(*scene);
+  ASSERT_FALSE(world);
+  EXPECT_EQ(world.error().front().text(), "here/a.obj: terrain.mesh: cannot be read: No such file or directory");
 }
 
 }  // namespace

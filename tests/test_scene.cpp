@@ -318,8 +318,8 @@ TEST(SceneErrors, SayWhatIsWrongAndWhatWouldBeRight) {
 TEST(SceneErrors, OfTerrain) {
   const Wrong cases[] = {
       {"max_vertices = 9",
-       "terrain: holds neither grid nor dem; expected grid = { columns = 37, rows = 40, spacing = 10.9 } or dem = "
-       "\"file.tif\""},
+       "terrain: holds neither grid nor dem nor mesh; expected grid = { columns = 37, rows = 40, spacing = 10.9 } or "
+       "dem = \"file.tif\" or mesh = \"file.obj\""},
       {"grid = { columns = 100000, rows = 100000, spacing = 1 }",
        "terrain.grid: 100000 columns x 100000 rows are 10000000000 vertices; expected at most terrain.max_vertices, "
        "which is 20000000"},
@@ -327,7 +327,9 @@ TEST(SceneErrors, OfTerrain) {
       {"grid = { columns = 3000000000, rows = 3, spacing = 1 }",
        "terrain.grid.columns: 3000000000 is out of range; expected an integer >= 2 and <= 1000000"},
       {"dem = \"\"", "terrain.dem: is empty; expected the name of a raster file"},
-      {"mesh = \"rock.obj\"", "terrain.mesh: meshes are not supported; this version reads grid and dem"},
+      {"mesh = \"rock.obj\"\nscale = 0", "terrain.scale: 0 is out of range; expected a number > 0 and <= 100000 (m)"},
+      {"dem = \"a.tif\"\nbox = { west = 2, south = 1, east = 1, north = 3 }",
+       "terrain.box: from 2 to 1 and from 1 to 3 has no area; expected west < east and south < north"},
       {"dem = \"a.tif\"\nmaterial = \"sol\"", "terrain.material: there is no material \"sol\"; expected " + kPresets},
       {"grid = { columns = 3, rows = 3, spacing = 1 }\ncrs = \"x\"",
        "terrain.crs: means something only beside dem; expected it left out with grid"},

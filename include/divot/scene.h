@@ -24,6 +24,30 @@ struct GridTerrain {
   std::function<double(double x, double y)> height = {};
 };
 
+/// A part of a raster in pixels from its first, the north-western one as a rule.
+struct PixelWindow {
+  int column = 0;                                                            ///< of its first pixel, >= 0
+  int row = 0;                                                               ///< likewise
+  int columns = 0;                                                           ///< its size; 0: to the end
+  int rows = 0;                                                              ///< likewise
+  friend bool operator==(const PixelWindow&, const PixelWindow&) = default;  ///< member by member
+};
+
+/// A part of a raster in the file's own coordinates (degrees, where those are degrees).
+struct MapBox {
+  double west = 0;                                                 ///< least x; all four 0: no box
+  double south = 0;                                                ///< least y
+  double east = 0;                                                 ///< greatest x, > west
+  double north = 0;                                                ///< greatest y, > south
+  friend bool operator==(const MapBox&, const MapBox&) = default;  ///< member by member
+};
+
+/// What becomes of places without data.
+enum class Nodata : std::uint8_t {
+  holes,  ///< the terrain has holes there
+  fill,   ///< they are filled from what is around them
+};
+
 /// A digital elevation model in any raster format that GDAL reads.
 struct DemTerrain {
   std::string path = {};  ///< relative paths start at the scene file's folder
@@ -31,9 +55,19 @@ struct DemTerrain {
       {};  ///< what the file's coordinates are (`EPSG:4326`), for formats that cannot say; empty: what the file says
   double spacing = 0;  ///< m, resampled to this; 0: as fine as the file
   int band = 1;        ///< >= 1
+  double pixel = 0;  ///< m, size of a pixel, for files that do not say it: they lie round the origin; 0: the file says
+  int raw_columns = 0;            ///< of a headerless file of 16-bit numbers (.raw, .r16); 0: as many as rows
+  double height_scale = 1;        ///< m for each step of the file's numbers, on top of a scale of the file's own, not 0
+  double height_offset = 0;       ///< m, height of number 0
+  PixelWindow window = {};        ///< the part to read
+  MapBox box = {};                ///< the part to read; not together with window
+  Nodata nodata = Nodata::holes;  ///< what becomes of places without data
 };
 
-/// A triangle mesh in memory, as other programs have it. Only the C++ interface can set it.
+/// Which axis of a mesh file points up.
+enum class UpAxis : std::uint8_t { z, y };
+
+/// A triangle mesh: in memory, as other programs have it (only the C++ interface can set that), or from a file.
 struct MeshTerrain {
   std::vector<Vec3d> vertices = {};  ///< m, in the terrain's coordinates; vertices without a triangle are no ground
   /// [3 * triangle] indices of vertices, counter-clockwise from above. Neighbours share vertices: equal positions are
@@ -41,6 +75,10 @@ struct MeshTerrain {
   std::vector<std::uint32_t> triangles = {};
   /// [vertex] index into Scene::materials; empty: TerrainSource::material everywhere.
   std::vector<std::uint8_t> materials = {};
+  /// OBJ, PLY, STL or glTF; relative paths start at the scene's folder. Empty: the mesh in memory.
+  std::string path = {};
+  UpAxis up = UpAxis::z;  ///< of OBJ, PLY and STL; glTF knows it
+  double scale = 1;       ///< m in a unit of the file, > 0
 };
 
 /// What some pixels of a material map stand for.
@@ -62,7 +100,7 @@ struct MaterialMap {
 
 /// Where the ground comes from and what it is made of.
 struct TerrainSource {
-  std::variant<GridTerrain, DemTerrain, MeshTerrain> shape = GridTerrain{};
+  std::variant<GridTerrain, DemTerrain, MeshTerrain> shape = GridTerrain{};  ///< where its heights come from
   std::string material = "paper";           ///< a name in Scene::materials or of a preset
   MaterialMap material_map = {};            ///< where the ground is made of something else
   std::uint64_t max_vertices = 20'000'000;  ///< a larger terrain is refused before memory is taken
@@ -75,8 +113,8 @@ struct Sphere {
 
 /// A moving object.
 struct BodySettings {
-  std::string name = {};
-  Sphere shape = {};
+  std::string name = {};      ///< names it in results; empty: it is told apart by its id
+  Sphere shape = {};          ///< what it looks like
   double mass = 1;            ///< kg, > 0
   Vec3d position = {};        ///< of its centre, m, in the terrain's coordinates (docs/scene-format.md, "Coordinates")
   bool above_ground = false;  ///< true: position.z is the height of its lowest point above the ground there
@@ -103,18 +141,18 @@ struct OutputSettings {
 
 /// Everything that makes a run: what a scene file holds.
 struct Scene {
-  std::string name = {};    ///< the file's name without folder and ending
-  std::string folder = {};  ///< relative paths in the scene start here
-  double duration = 10;
-  double dt = 1.0 / 60;
-  Vec3d gravity = {0, 0, -9.81};
-  std::uint64_t seed = 1;
-  TerrainSource terrain = {};
-  std::vector<Material> materials = {};  ///< those the scene defines; presets need not be listed
-  std::vector<BodySettings> bodies = {};
-  std::vector<Bomb> bombs = {};
-  Settings solver = {};
-  OutputSettings output = {};
+  std::string name = {};                  ///< the file's name without folder and ending
+  std::string folder = {};                ///< relative paths in the scene start here
+  double duration = 10;                   ///< s, > 0
+  double dt = 1.0 / 60;                   ///< s, > 0, at most `duration`
+  Vec3d gravity = {0, 0, -9.81};          ///< m/s^2
+  std::uint64_t seed = 1;                 ///< of random numbers
+  TerrainSource terrain = {};             ///< the ground
+  std::vector<Material> materials = {};   ///< those the scene defines; presets need not be listed
+  std::vector<BodySettings> bodies = {};  ///< what moves over it
+  std::vector<Bomb> bombs = {};           ///< charges, in any order
+  Settings solver = {};                   ///< how it is solved
+  OutputSettings output = {};             ///< what a run writes
 };
 
 /// One `--set key=value`.

@@ -10,12 +10,18 @@ namespace divot::geometry {
 namespace {
 
 using Indices = std::vector<std::uint32_t>;
+using VertexText = std::function<std::string(std::uint32_t)>;
 
 Error problem(std::string what, std::string expected) { return {{}, 0, {}, std::move(what), std::move(expected)}; }
 
 std::string triangle_text(const Indices& triangles, std::size_t face) {
   return fmt::format("triangle {} ({}, {}, {})", face, triangles[3 * face], triangles[3 * face + 1],
                      triangles[3 * face + 2]);
+}
+
+std::string edge_text(std::uint32_t a, std::uint32_t b, const VertexText& vertex_text) {
+  if (!vertex_text) return fmt::format("{}-{}", a, b);
+  return fmt::format("{}-{}, from {} to {},", a, b, vertex_text(a), vertex_text(b));
 }
 
 // The first triangle that could not be in any mesh; no problem when all could.
@@ -44,7 +50,7 @@ Indices sorted_by_vertex(std::uint32_t vertex_count, const Indices& half_edges, 
 }
 
 // Finds the twins of all half-edges: sorted by larger and then by smaller vertex, those of one edge are adjacent.
-Error match_twins(std::uint32_t vertex_count, const Indices& origin, Indices& twin) {
+Error match_twins(std::uint32_t vertex_count, const Indices& origin, Indices& twin, const VertexText& vertex_text) {
   const auto target = [&](std::uint32_t h) { return origin[HalfEdgeMesh::next(h)]; };
   const auto smaller = [&](std::uint32_t h) { return std::min(origin[h], target(h)); };
   const auto larger = [&](std::uint32_t h) { return std::max(origin[h], target(h)); };
@@ -60,13 +66,15 @@ Error match_twins(std::uint32_t vertex_count, const Indices& origin, Indices& tw
     if (end - i == 1) continue;
     const std::uint32_t other = order[i + 1];
     if (end - i > 2)
-      return problem(fmt::format("edge {}-{} belongs to {} triangles, first {}", smaller(h), larger(h), end - i,
-                                 triangle_text(origin, HalfEdgeMesh::face_of(h))),
-                     "at most two triangles at an edge");
+      return problem(
+          fmt::format("edge {} belongs to {} triangles, first {}", edge_text(smaller(h), larger(h), vertex_text),
+                      end - i, triangle_text(origin, HalfEdgeMesh::face_of(h))),
+          "at most two triangles at an edge");
     if (origin[h] == origin[other])
-      return problem(fmt::format("{} and {} both run along edge {}-{} in the same direction",
+      return problem(fmt::format("{} and {} both run along edge {} in the same direction",
                                  triangle_text(origin, HalfEdgeMesh::face_of(h)),
-                                 triangle_text(origin, HalfEdgeMesh::face_of(other)), origin[h], target(h)),
+                                 triangle_text(origin, HalfEdgeMesh::face_of(other)),
+                                 edge_text(origin[h], target(h), vertex_text)),
                      "all triangles counter-clockwise from above");
     twin[h] = other, twin[other] = h;
   }
@@ -75,13 +83,14 @@ Error match_twins(std::uint32_t vertex_count, const Indices& origin, Indices& tw
 
 }  // namespace
 
-Result<HalfEdgeMesh> HalfEdgeMesh::build(std::uint32_t vertex_count, std::vector<std::uint32_t> triangles) {
+Result<HalfEdgeMesh> HalfEdgeMesh::build(std::uint32_t vertex_count, std::vector<std::uint32_t> triangles,
+                                         const VertexText& vertex_text) {
   if (Error error = check_triangles(vertex_count, triangles); !error.problem.empty()) return fail(std::move(error));
   HalfEdgeMesh mesh;
   mesh.origin_ = std::move(triangles);
   mesh.twin_.assign(mesh.origin_.size(), kNone);
   mesh.outgoing_.assign(vertex_count, kNone);
-  Error error = match_twins(vertex_count, mesh.origin_, mesh.twin_);
+  Error error = match_twins(vertex_count, mesh.origin_, mesh.twin_, vertex_text);
   if (!error.problem.empty()) return fail(std::move(error));
 
   // The lowest half-edge of each vertex, then those at a boundary; and how many there are.

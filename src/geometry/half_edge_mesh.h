@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,7 +29,9 @@ class HalfEdgeMesh {
   /// Connects `triangles` ([3 * face] vertex ids below `vertex_count`). Fails, naming the first offender, on an index
   /// out of range, a triangle with a vertex twice, an edge with more than two faces or two that disagree about its
   /// direction, and a vertex where two fans touch. [O(vertices + faces)]
-  static Result<HalfEdgeMesh> build(std::uint32_t vertex_count, std::vector<std::uint32_t> triangles);
+  /// `vertex_text` says what errors call the ends of a bad edge; empty: their ids.
+  static Result<HalfEdgeMesh> build(std::uint32_t vertex_count, std::vector<std::uint32_t> triangles,
+                                    const std::function<std::string(std::uint32_t)>& vertex_text = {});
 
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(outgoing_.size()); }
   std::uint32_t face_count() const { return half_edge_count() / 3; }

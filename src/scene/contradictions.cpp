@@ -44,6 +44,23 @@ bool check_name(const Scene& scene, const std::string& name, const std::string& 
   return false;
 }
 
+void check_part(const DemTerrain& dem, Errors& errors) {
+  const MapBox& box = dem.box;
+  if (box == MapBox{}) {
+  } else if (dem.window != PixelWindow{}) {
+    errors.push_back({{}, 0, "terrain.box", "is there beside a window", "expected one of them"});
+  } else if (!(box.west < box.east && box.south < box.north)) {
+    errors.push_back({{},
+                      0,
+                      "terrain.box",
+                      fmt::format("from {} to {} and from {} to {} has no area", number_text(box.west),
+                                  number_text(box.east), number_text(box.south), number_text(box.north)),
+                      "expected west < east and south < north"});
+  }
+  if (dem.height_scale == 0)
+    errors.push_back({{}, 0, "terrain.height_scale", "0 makes the ground flat", "expected metres for a step"});
+}
+
 void check_terrain(const Scene& scene, Errors& errors) {
   const TerrainSource& terrain = scene.terrain;
   if (const auto* grid = std::get_if<GridTerrain>(&terrain.shape)) {
@@ -59,6 +76,7 @@ void check_terrain(const Scene& scene, Errors& errors) {
   if (const auto* dem = std::get_if<DemTerrain>(&terrain.shape); dem != nullptr && dem->path.empty()) {
     errors.push_back({{}, 0, "terrain.dem", "is empty", "expected the name of a raster file"});
   }
+  if (const auto* dem = std::get_if<DemTerrain>(&terrain.shape)) check_part(*dem, errors);
   check_name(scene, terrain.material, "terrain.material", errors);
 }
 

@@ -41,6 +41,32 @@ void describe_grid(Visitor& v, GridTerrain& grid) {
   });
 }
 
+void describe_window(Visitor& v, PixelWindow& window) {
+  constexpr double kMost = 2e9;
+  v.table({.name = "window", .example = "window = { column = 0, row = 0, columns = 512, rows = 512 }"}, [&] {
+    v.whole({.name = "column",
+             .range = between(0, kMost),
+             .meaning = "first pixel of the part that is read, from the west"},
+            window.column);
+    v.whole({.name = "row", .range = between(0, kMost), .meaning = "likewise, from the north"}, window.row);
+    v.whole({.name = "columns", .range = between(0, kMost), .meaning = "pixels that are read; 0: to the end"},
+            window.columns);
+    v.whole({.name = "rows", .range = between(0, kMost), .meaning = "likewise"}, window.rows);
+  });
+}
+
+void describe_box(Visitor& v, MapBox& box) {
+  v.table({.name = "box", .example = "box = { west = 14.1, south = 50.0, east = 14.3, north = 50.2 }"}, [&] {
+    const auto side = [&](const char* name, const char* meaning, double& value) {
+      v.number({.name = name, .range = between(-kFar, kFar), .meaning = meaning, .default_text = "no box"}, value);
+    };
+    side("west", "border of the part that is read, in the file's own coordinates", box.west);
+    side("south", "likewise", box.south);
+    side("east", "likewise", box.east);
+    side("north", "likewise", box.north);
+  });
+}
+
 void describe_dem(Visitor& v, DemTerrain& dem) {
   v.text({.name = "dem",
           .meaning = "elevation model in a raster format GDAL reads; a relative path starts at the scene's folder",
@@ -56,6 +82,40 @@ void describe_dem(Visitor& v, DemTerrain& dem) {
             .meaning = "the `dem` is resampled to this distance between vertices; 0: as fine as the file"},
            dem.spacing);
   v.whole({.name = "band", .range = between(1, 65535), .meaning = "band of the `dem` that holds heights"}, dem.band);
+  v.number({.name = "pixel",
+            .unit = "m",
+            .range = between(0, kLong),
+            .meaning = "size of a pixel, for a `dem` that does not say it: it lies round the origin; 0: the file says"},
+           dem.pixel);
+  v.whole({.name = "raw_columns",
+           .range = between(0, 1e6),
+           .meaning =
+               "of a headerless `dem` of unsigned 16-bit numbers, low byte first (`.raw`, `.r16`); 0: as many as rows"},
+          dem.raw_columns);
+  v.number({.name = "height_scale",
+            .unit = "m",
+            .range = between(-kLong, kLong),
+            .meaning = "for each step of the file's numbers, on top of a scale that the file has itself; not 0"},
+           dem.height_scale);
+  v.number({.name = "height_offset", .unit = "m", .range = between(-kLong, kLong), .meaning = "height of number 0"},
+           dem.height_offset);
+  static constexpr const char* kNodata[] = {"holes", "fill"};
+  v.choice({.name = "nodata", .meaning = "places without data stay holes or are filled from what is around them"},
+           kNodata, dem.nodata);
+  describe_window(v, dem.window);
+  describe_box(v, dem.box);
+}
+
+void describe_mesh(Visitor& v, MeshTerrain& mesh) {
+  static constexpr const char* kUp[] = {"z", "y"};
+  v.text({.name = "mesh",
+          .meaning = "triangle mesh, one height at each place: OBJ, PLY, STL or glTF; a relative path starts at the "
+                     "scene's folder",
+          .default_text = "none"},
+         mesh.path);
+  v.choice({.name = "up", .meaning = "axis of the `mesh` that points up; glTF knows its own"}, kUp, mesh.up);
+  v.number({.name = "scale", .unit = "m", .range = above(0, kLong), .meaning = "in one unit of the `mesh`"},
+           mesh.scale);
 }
 
 void describe_map(Visitor& v, MaterialMap& map) {
@@ -78,17 +138,18 @@ void describe_map(Visitor& v, MaterialMap& map) {
 }
 
 void describe_terrain(Visitor& v, TerrainSource& terrain) {
-  static constexpr const char* kMesh[] = {"mesh"};
   static constexpr const char* kRefine[] = {"refine"};
-  static constexpr const char* kDemOnly[] = {"crs", "spacing", "band"};
+  static constexpr const char* kDemOnly[] = {"crs",          "spacing",       "band",   "pixel",  "raw_columns",
+                                             "height_scale", "height_offset", "nodata", "window", "box"};
+  static constexpr const char* kMeshOnly[] = {"up", "scale"};
   static constexpr Branch kShapes[] = {{"grid", {}, "grid = { columns = 37, rows = 40, spacing = 10.9 }"},
-                                       {"dem", kDemOnly, "dem = \"file.tif\""}};
-  v.unsupported({kMesh, "meshes are not supported", "this version reads grid and dem"});
+                                       {"dem", kDemOnly, "dem = \"file.tif\""},
+                                       {"mesh", kMeshOnly, "mesh = \"file.obj\""}};
   v.unsupported({kRefine, "refinement is not supported", "this version keeps the triangles the terrain starts with"});
   for (const std::size_t shape : v.branches(kShapes, terrain.shape.index())) {
     if (shape == 0) describe_grid(v, as<GridTerrain>(terrain.shape));
     if (shape == 1) describe_dem(v, as<DemTerrain>(terrain.shape));
-    // A mesh has no keys: it comes from code, and is checked when the terrain is made of it.
+    if (shape == 2) describe_mesh(v, as<MeshTerrain>(terrain.shape));
   }
   v.text({.name = "material", .meaning = "what the ground is made of: a preset or a material of the file"},
          terrain.material);
@@ -356,7 +417,9 @@ void describe(Visitor& v, Scene& scene) {
   v.number({.name = "dt", .unit = "s", .range = above(0, 1), .meaning = "time step; at most `duration`"}, scene.dt);
   v.vector({.name = "gravity", .unit = "m/s^2", .range = between(-1000, 1000), .meaning = "z is up"}, scene.gravity);
   v.whole({.name = "seed", .range = {.low = 0}, .meaning = "of random numbers"}, scene.seed);
-  v.table({.name = "terrain", .required = true, .example = "[terrain] with grid = { ... } or dem = \"file.tif\""},
+  v.table({.name = "terrain",
+           .required = true,
+           .example = "[terrain] with grid = { ... }, dem = \"file.tif\" or mesh = \"file.obj\""},
           [&] { describe_terrain(v, scene.terrain); });
   describe_materials(v, scene.materials);
   v.list({.name = "bodies"}, scene.bodies, [&](BodySettings& body) { describe_body(v, body); });

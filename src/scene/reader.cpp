@@ -61,7 +61,9 @@ std::vector<std::size_t> Reader::branches(std::span<const Branch> all, std::size
   if (present.size() > 1) {
     // An override that came on top of the file is the one to blame.
     const toml::node* where = frame.table;
+    names.clear();
     for (const std::size_t i : present) {
+      names.emplace_back(all[i].name);
       if (overridden(peek(all[i].name)->source())) where = peek(all[i].name);
     }
     error_at(where, path(), fmt::format("holds {} at once", fmt::join(names, " and ")), "expected one of them");

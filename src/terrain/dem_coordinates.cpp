@@ -93,7 +93,7 @@ Result<OGRSpatialReference> local_system(const DemTerrain& dem, const DemPixels&
 // The same pixels on a north-up grid whose coordinates are metres.
 Result<DemPixels> to_north_up(const DemTerrain& dem, DemPixels pixels, std::uint64_t max_vertices) {
   if (pixels.crs.IsEmpty()) {
-    if (looks_like_degrees(pixels)) {
+    if (dem.pixel <= 0 && looks_like_degrees(pixels)) {
       return fail_crs(dem, "the coordinates look like degrees, and the file has no coordinate system",
                       "expected `crs = \"EPSG:4326\"` for degrees, or the projected system they are in");
     }

@@ -141,7 +141,10 @@ float mean_spacing(const Surface& surface) {
 Result<Surface> load_mesh(const MeshTerrain& mesh, std::uint64_t max_vertices) {
   if (auto ok = check_numbers(mesh, max_vertices); !ok) return tl::unexpected(ok.error());
   const auto count = static_cast<std::uint32_t>(mesh.vertices.size());
-  auto connected = HalfEdgeMesh::build(count, mesh.triangles);
+  auto connected = HalfEdgeMesh::build(count, mesh.triangles, [&](std::uint32_t v) {
+    const Vec3d& p = mesh.vertices[v];
+    return fmt::format("({:.10g}, {:.10g}, {:.10g})", p.x, p.y, p.z);
+  });
   if (!connected) {
     Error error = connected.error().front();
     return refuse(std::move(error.problem), "expected " + error.expected);
