@@ -365,7 +365,8 @@ TEST(SceneErrors, OfTerrain) {
     EXPECT_EQ(error.text(), wrong.error);
   }
   EXPECT_EQ(errors_of(""),
-            "s.toml: terrain: is missing; expected [terrain] with grid = { ... } or dem = \"file.tif\"\n");
+            "s.toml: terrain: is missing; expected [terrain] with grid = { ... }, dem = \"file.tif\" or mesh = "
+            "\"file.obj\"\n");
 }
 
 TEST(SceneErrors, OfBodiesAndBombsAreAllReportedInOrder) {

@@ -9,5 +9,6 @@
 #include "divot/scene.h"
 #include "divot/settings.h"
 #include "divot/vec.h"
+#include "divot/version.h"
 #include "divot/views.h"
 #include "divot/world.h"

@@ -11,7 +11,7 @@ namespace divot {
 /// The soil of a part of the terrain. Plain numbers in SI; docs/physics.md has the laws and the source of each preset's
 /// values.
 struct Material {
-  std::string name = "paper";
+  std::string name = "paper";  ///< what scenes call it
 
   // The particle system (eq. 1-6). Mass, dissociation energy and global damping belong to particles that stand
   // `reference_spacing` apart; on any other mesh they scale with the square of the spacing, so that results do not

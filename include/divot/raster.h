@@ -8,9 +8,12 @@ namespace divot {
 
 /// The ground as a north-up raster, for files and for other programs: a copy.
 struct RasterView {
-  std::uint32_t columns = 0, rows = 0;
-  double x0 = 0, y0 = 0;       ///< centre of the first pixel, the north-western one, in the terrain's coordinates, m
-  double dx = 0, dy = 0;       ///< size of a pixel, m, > 0: x grows with the column, y falls with the row
+  std::uint32_t columns = 0;   ///< from west to east
+  std::uint32_t rows = 0;      ///< from north to south
+  double x0 = 0;               ///< m, centre of the first pixel, the north-western one, in the terrain's coordinates
+  double y0 = 0;               ///< m, likewise
+  double dx = 0;               ///< m, > 0, size of a pixel: x grows with the column
+  double dy = 0;               ///< m, > 0, likewise: y falls with the row
   std::string crs;             ///< WKT of the coordinates; empty when unknown
   std::vector<float> heights;  ///< [row * columns + column] m, row 0 northernmost
   std::vector<float>

@@ -83,8 +83,8 @@ struct MeshTerrain {
 
 /// What some pixels of a material map stand for.
 struct LegendEntry {
-  bool color = false;  ///< the pixel is a colour, 0xrrggbb, else the value of the first band
-  std::int64_t pixel = 0;
+  bool color = false;         ///< the pixel is a colour, 0xrrggbb, else the value of the first band
+  std::int64_t pixel = 0;     ///< the value, or the colour
   std::string material = {};  ///< a name in Scene::materials or of a preset
 
   std::string text() const;  ///< the pixel as a scene file writes it

@@ -6,8 +6,12 @@ namespace divot {
 
 /// Three floats: a position in metres relative to a world's origin, or a direction, velocity or force.
 struct Vec3 {
-  float x = 0, y = 0, z = 0;
+  float x = 0;  ///< first component
+  float y = 0;  ///< second component
+  float z = 0;  ///< third component
 
+  /// @{
+  /// Component by component.
   Vec3& operator+=(const Vec3& b) {
     x += b.x, y += b.y, z += b.z;
     return *this;
@@ -26,6 +30,7 @@ struct Vec3 {
   friend Vec3 operator*(Vec3 a, float s) { return a *= s; }
   friend Vec3 operator*(float s, Vec3 a) { return a *= s; }
   friend bool operator==(const Vec3&, const Vec3&) = default;
+  /// @}
 };
 
 inline float dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -42,8 +47,12 @@ inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinit
 
 /// Three doubles: a position in metres in the terrain's own coordinate system (an easting can be 4,000,000 m).
 struct Vec3d {
-  double x = 0, y = 0, z = 0;
+  double x = 0;  ///< first component
+  double y = 0;  ///< second component
+  double z = 0;  ///< third component
 
+  /// @{
+  /// Component by component.
   Vec3d& operator+=(const Vec3d& b) {
     x += b.x, y += b.y, z += b.z;
     return *this;
@@ -62,6 +71,7 @@ struct Vec3d {
   friend Vec3d operator*(Vec3d a, double s) { return a *= s; }
   friend Vec3d operator*(double s, Vec3d a) { return a *= s; }
   friend bool operator==(const Vec3d&, const Vec3d&) = default;
+  /// @}
 };
 
 inline double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -77,8 +87,11 @@ inline Vec3 to_float(const Vec3d& a) {
 
 /// Unit quaternion of a rotation, identity by default.
 struct Quat {
-  double x = 0, y = 0, z = 0, w = 1;
-  friend bool operator==(const Quat&, const Quat&) = default;
+  double x = 0;                                                ///< of the vector part
+  double y = 0;                                                ///< of the vector part
+  double z = 0;                                                ///< of the vector part
+  double w = 1;                                                ///< the real part
+  friend bool operator==(const Quat&, const Quat&) = default;  ///< component by component
 };
 
 }  // namespace divot

@@ -30,33 +30,37 @@ enum class Hold : std::uint8_t {
 /// The particles that are awake, without a copy. Valid until the world's next step.
 struct ParticleView {
   std::span<const std::uint32_t> vertices;  ///< [particle] the surface vertex it moves, ascending
-  std::span<const float> x, y, z;           ///< [particle] m, relative to the surface's origin
-  std::span<const float> vx, vy, vz;        ///< [particle] m/s
+  std::span<const float> x;                 ///< [particle] m, relative to the surface's origin
+  std::span<const float> y;                 ///< [particle] likewise
+  std::span<const float> z;                 ///< [particle] likewise
+  std::span<const float> vx;                ///< [particle] m/s
+  std::span<const float> vy;                ///< [particle] m/s
+  std::span<const float> vz;                ///< [particle] m/s
   std::span<const float> mass;              ///< [particle] kg
   std::span<const Hold> hold;               ///< [particle] what moves it, a Hold
 };
 
 /// A body as it is now.
 struct BodyView {
-  std::string name;
-  double radius = 0;  ///< m
-  double mass = 0;    ///< kg
-  Vec3d position;     ///< of the centre, m, in the terrain's coordinates
-  Quat orientation;
-  Vec3d velocity;          ///< m/s
-  Vec3d angular_velocity;  ///< rad/s
-  double sinkage = 0;      ///< m, how deep its lowest contact lies below the original ground; 0 in the air
-  double max_sinkage = 0;  ///< m, the largest so far
-  bool touching = false;
+  std::string name;          ///< as in the scene
+  double radius = 0;         ///< m
+  double mass = 0;           ///< kg
+  Vec3d position;            ///< of the centre, m, in the terrain's coordinates
+  Quat orientation;          ///< of its axes
+  Vec3d velocity;            ///< m/s
+  Vec3d angular_velocity;    ///< rad/s
+  double sinkage = 0;        ///< m, how deep its lowest contact lies below the original ground; 0 in the air
+  double max_sinkage = 0;    ///< m, the largest so far
+  bool touching = false;     ///< pressed ground at the end of the last step
   bool off_terrain = false;  ///< has left the terrain and falls
 };
 
 /// A bomb as it is now.
 struct BombView {
-  Vec3d position;    ///< m, in the terrain's coordinates
-  double time = 0;   ///< s
-  double yield = 0;  ///< t of TNT
-  bool exploded = false;
+  Vec3d position;         ///< m, in the terrain's coordinates
+  double time = 0;        ///< s
+  double yield = 0;       ///< t of TNT
+  bool exploded = false;  ///< has gone off
 };
 
 /// Vertices [first, last) whose position changed.

@@ -27,17 +27,17 @@ struct StepReport {
 
 /// Time and calls of a stage since the world was made.
 struct StageTime {
-  const char* name;
-  double ms = 0;
-  std::uint64_t calls = 0;
+  const char* name;         ///< as in docs/architecture.md
+  double ms = 0;            ///< milliseconds in all
+  std::uint64_t calls = 0;  ///< how often it ran
 };
 
 /// How often search structures were brought up to date since the world was made.
 struct UpdateCounts {
-  std::uint64_t neighbour_rebuilds = 0;
-  std::uint64_t bvh_refits = 0;
-  std::uint64_t bvh_rebuilds = 0;
-  std::uint64_t missed_pairs = 0;  ///< pairs in range that stale rows did not hold; 0 for adaptive and every_step
+  std::uint64_t neighbour_rebuilds = 0;  ///< rows built anew
+  std::uint64_t bvh_refits = 0;          ///< boxes made to fit again
+  std::uint64_t bvh_rebuilds = 0;        ///< trees built anew
+  std::uint64_t missed_pairs = 0;        ///< pairs in range that stale rows did not hold; 0 for adaptive and every_step
 };
 
 /// A crater as the surface shows it.
@@ -55,7 +55,9 @@ struct Crater {
 /// Where the soil went since the world was made, m^3. Displaced and deposited are integrated over the surface,
 /// compacted is summed over the soil's change of density.
 struct SoilVolume {
-  double displaced = 0, compacted = 0, deposited = 0;
+  double displaced = 0;  ///< below where the ground was
+  double compacted = 0;  ///< of it, lost to density
+  double deposited = 0;  ///< above where the ground was
   /// |displaced - compacted - deposited| / displaced; 0 when nothing moved.
   double relative_error() const;
 };
@@ -83,8 +85,8 @@ class World {
   /// files.
   static Result<World> create(const Scene& scene, std::shared_ptr<const Jobs> jobs = nullptr);
 
-  World(World&&) noexcept;
-  World& operator=(World&&) noexcept;
+  World(World&&) noexcept;             ///< views stay valid
+  World& operator=(World&&) noexcept;  ///< likewise
   ~World();
 
   /// Advances by Scene::dt. Cost follows the particles that are awake, never the size of the terrain.
@@ -100,14 +102,14 @@ class World {
   /// the body. Fails when a number is not finite or the radius is not above 0. [O(log faces + pushed)]
   Result<void> push_ground(const GroundPush& push);
 
-  double time() const;  ///< s
-  std::uint64_t steps() const;
-  const Scene& scene() const;  ///< as given to create()
+  double time() const;          ///< s
+  std::uint64_t steps() const;  ///< taken since the start
+  const Scene& scene() const;   ///< as given to create()
 
-  SurfaceView surface() const;
-  ParticleView particles() const;
-  std::vector<BodyView> bodies() const;
-  std::vector<BombView> bombs() const;
+  SurfaceView surface() const;                  ///< the ground
+  ParticleView particles() const;               ///< what is awake
+  std::vector<BodyView> bodies() const;         ///< by BodyId
+  std::vector<BombView> bombs() const;          ///< by time
   std::span<const Material> materials() const;  ///< by index, as SurfaceView::materials refers to them
 
   /// Vertices that moved since the last call, as ascending disjoint ranges. For uploads: send just these.
@@ -130,12 +132,12 @@ class World {
   /// over the surface, the root's being 0: none below the deepest. For looking at. [O(triangles)]
   std::vector<std::pair<Vec3, Vec3>> bvh_boxes(int level) const;
 
-  std::size_t peak_particles() const;  ///< most particles awake at once so far
-  std::vector<StageTime> stages() const;
-  UpdateCounts updates() const;
-  std::vector<Crater> craters() const;  ///< one for each bomb that went off, in order
-  SoilVolume soil_volume() const;
-  Energy energy() const;  ///< [O(awake particles + bodies)]
+  std::size_t peak_particles() const;     ///< most particles awake at once so far
+  std::vector<StageTime> stages() const;  ///< in running order
+  UpdateCounts updates() const;           ///< of search structures
+  std::vector<Crater> craters() const;    ///< one for each bomb that went off, in order
+  SoilVolume soil_volume() const;         ///< [O(touched vertices)]
+  Energy energy() const;                  ///< [O(awake particles + bodies)]
 
   /// 64 bits over every surface position, awake particle and body. Equal runs give equal bits.
   std::uint64_t state_hash() const;

@@ -104,7 +104,7 @@ class Body {
     return true;
   }
   /// Records that what is left can hold at most: for sizes that a header claims.
-  std::size_t left() const { return text_ ? lines_.rest().size() : bytes_.size(); }
+  std::size_t left() const { return text_ ? lines_.left() : bytes_.size(); }
   int line() const { return text_ ? lines_.number() : 0; }
 
  private:

@@ -33,7 +33,9 @@ class Lines {
     line_.remove_prefix(end);
     return found;
   }
-  int number() const { return number_; }           ///< of the line, 1-based
+  int number() const { return number_; }  ///< of the line, 1-based
+  /// Characters that no word() or next() has taken.
+  std::size_t left() const { return line_.size() + text_.size(); }
   std::string_view rest() const { return text_; }  ///< what lies behind the line
 
  private:
