@@ -19,7 +19,8 @@ bool is_awake(const state::Particles& p, const state::Soil& soil, const state::S
 
 // Who is awake after this step, ascending; false if that is who was.
 bool list_awake(const state::Particles& p, const state::Soil& soil, const state::Surface& surface,
-                std::vector<std::uint32_t>& wake, std::vector<std::uint32_t>& awake) {
+                std::vector<std::uint32_t>& wake, std::vector<std::uint32_t>& awake,
+                std::vector<std::uint32_t>& merged) {
   sort_unique(wake);
   std::erase_if(wake, [&](std::uint32_t v) { return is_awake(p, soil, surface, v); });
   // Counting looks at all of them, but many at a time; a search that stops would not.
@@ -28,9 +29,10 @@ bool list_awake(const state::Particles& p, const state::Soil& soil, const state:
   awake.clear();
   for (std::size_t i = 0; i < p.size(); ++i)
     if (p.hold[i] == Hold::free || p.hold[i] == Hold::carried) awake.push_back(p.vertex[i]);
-  const auto middle = static_cast<std::ptrdiff_t>(awake.size());
-  awake.insert(awake.end(), wake.begin(), wake.end());
-  std::inplace_merge(awake.begin(), awake.begin() + middle, awake.end());
+  // Not std::inplace_merge, which allocates.
+  merged.resize(awake.size() + wake.size());
+  std::merge(awake.begin(), awake.end(), wake.begin(), wake.end(), merged.begin());
+  awake.swap(merged);
   return true;
 }
 
@@ -67,7 +69,7 @@ void append_row(state::Particles& to, const state::Particles& from, const state:
 
 bool update(state::Particles& particles, state::Soil& soil, state::Surface& surface,
             std::span<const laws::Medium> media, std::vector<std::uint32_t>& wake, Scratch& scratch) {
-  const bool changed = list_awake(particles, soil, surface, wake, scratch.awake);
+  const bool changed = list_awake(particles, soil, surface, wake, scratch.awake, scratch.anchors);
   wake.clear();
   if (!changed) return false;
   list_anchors(surface, scratch.awake, scratch.anchors);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "laws/slope.h"
@@ -186,10 +187,11 @@ void find_slides(const Site& site, SlumpScratch& scratch, const Jobs& jobs) {
     site.ground.surface.mesh.for_each_face(vertex, [&](std::uint32_t face) { scratch.faces.push_back(face); });
   sort_unique(scratch.faces);
   scratch.found.resize(scratch.faces.size());
-  jobs.for_ranges(scratch.faces.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  const auto work = [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
       if (!look_at(site, scratch.faces[k], scratch.found[k])) scratch.found[k].face = kNone;
-  });
+  };
+  jobs.for_ranges(scratch.faces.size(), kGrain, std::ref(work));  // by reference: a copy would be an allocation
   scratch.slides.clear();
   for (const Slide& slide : scratch.found)
     if (slide.face != kNone) scratch.slides.push_back(slide);
@@ -204,7 +206,7 @@ void gather_inflow(const Ground& ground, double dt, SlumpScratch& scratch, const
       scratch.vertices.push_back(surface.mesh.origin(h));
   sort_unique(scratch.vertices);
   scratch.inflow.assign(scratch.vertices.size(), 0);
-  jobs.for_ranges(scratch.vertices.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  const auto work = [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
       surface.mesh.for_each_outgoing(scratch.vertices[k], [&](std::uint32_t h) {
         const auto slide = std::lower_bound(scratch.slides.begin(), scratch.slides.end(), h / 3,
@@ -215,7 +217,8 @@ void gather_inflow(const Ground& ground, double dt, SlumpScratch& scratch, const
         const double flows = std::min({slide->wanted * dt, slide->stable, slide->most});
         scratch.inflow[k] += flows * share_of_corner(p, *slide, h % 3);
       });
-  });
+  };
+  jobs.for_ranges(scratch.vertices.size(), kGrain, std::ref(work));  // by reference: a copy would be an allocation
 }
 
 int plan_sweeps(const std::vector<Slide>& slides, double dt) {
