@@ -17,7 +17,7 @@ constexpr double kGravity = 9.81;
 Scene ball_scene(const std::string& material, double spacing, double radius, double mass, int size = 61) {
   Scene scene;
   scene.terrain = {.shape = GridTerrain{.columns = size, .rows = size, .spacing = spacing}, .material = material};
-  scene.bodies = {{.name = "ball", .shape = {radius}, .mass = mass, .position = {0, 0, 0}, .above_ground = true}};
+  scene.bodies = {{.name = "ball", .shape = Sphere{radius}, .mass = mass, .position = {0, 0, 0}, .above_ground = true}};
   return scene;
 }
 
@@ -273,8 +273,8 @@ TEST(Contact, InTheAirItFliesAsItShould) {
 TEST(Contact, BallsThatCollideKeepTheirMomentum) {
   Scene scene;
   scene.gravity = {};
-  scene.bodies = {{.name = "a", .shape = {1}, .mass = 2, .position = {-3, 0, 20}, .velocity = {5, 0, 0}},
-                  {.name = "b", .shape = {1}, .mass = 6, .position = {0, 0.3, 20}}};
+  scene.bodies = {{.name = "a", .shape = Sphere{1}, .mass = 2, .position = {-3, 0, 20}, .velocity = {5, 0, 0}},
+                  {.name = "b", .shape = Sphere{1}, .mass = 6, .position = {0, 0.3, 20}}};
   World world = make_world(scene);
   run_to(world, 2);
   const auto bodies = world.bodies();
@@ -337,6 +337,11 @@ TEST(ContactCarry, WhatIsNoLongerPressedIsFreeAtRest) {
   EXPECT_EQ(s.soil.shear[s.particles.column[12]], Vec3{});
 }
 
+void set_ball(state::Body& body, double radius) {
+  body.solid = std::make_shared<const geometry::Solid>(*geometry::make_solid(Sphere{radius}));
+  body.radius = radius;
+}
+
 // Whoever walks over the half-edges finds whom the hierarchy finds, and that is everyone.
 TEST(ContactNear, WalkFindsWhatTheBvhFinds) {
   const state::Surface surface =
@@ -356,13 +361,14 @@ TEST(ContactNear, WalkFindsWhatTheBvhFinds) {
   Scratch::PerBody scratch;
   std::size_t found = 0;
   for (int step = 0; step < 300; ++step) {
-    walker.radius = random.in(0.2, 1.5);
+    set_ball(walker, random.in(0.2, 1.5));
     walker.velocity = {random.in(-6.0, 6.0), random.in(-6.0, 6.0), random.in(-1.0, 1.0)};
     walker.position += (3 * s.dt) * walker.velocity;
     // It stays on the terrain and near the ground; at the border it takes the hierarchy anyhow.
     walker.position.x = std::clamp(walker.position.x, -9.9, 9.9),
     walker.position.y = std::clamp(walker.position.y, -9.9, 9.9);
     walker.position.z = random.in(-0.5, 0.5) + walker.radius;
+    scratch.start.place(*walker.solid, walker.position, {});
     walker.near_left = -1;
     state::Body asker = walker;
     asker.last_vertex = kNone;
@@ -371,7 +377,7 @@ TEST(ContactNear, WalkFindsWhatTheBvhFinds) {
     ASSERT_EQ(walker.near, asker.near) << "step " << step;
     std::vector<std::uint32_t> all;
     for (std::uint32_t v = 0; v < surface.position.size(); ++v)
-      if (within_reach(walker, surface.position[v], walker.near_left)) all.push_back(v);
+      if (scratch.start.within_reach(surface.position[v], walker.near_left)) all.push_back(v);
     ASSERT_EQ(walker.near, all) << "step " << step;
     found += all.size();
     if (!walker.near.empty()) walker.last_vertex = walker.near[random.below(walker.near.size())];
@@ -388,8 +394,9 @@ TEST(ContactNear, WhatWasFoundServesUntilItCannot) {
   const std::vector<laws::Medium> media = {laws::make_medium(Material{})};
   const Situation s{surface, bvh, soil, particles, media, {0, 0, -kGravity}, 1.0 / 60, 0, {}};
   state::Body body;
-  body.radius = 0.5, body.position = {0.1, 0.2, 0.45}, body.velocity = {0.2, 0, 0};
+  set_ball(body, 0.5), body.position = {0.1, 0.2, 0.45}, body.velocity = {0.2, 0, 0};
   Scratch::PerBody scratch;
+  scratch.start.place(*body.solid, body.position, {});
   find_near(body, s, scratch);
   EXPECT_GT(body.near_left, 0);
   const std::vector<std::uint32_t> kept = body.near;

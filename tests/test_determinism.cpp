@@ -16,7 +16,7 @@ Scene crowd() {
   test::Random random(21);
   for (int k = 0; k < 200; ++k)
     scene.bodies.push_back({.name = "ball " + std::to_string(k),
-                            .shape = {random.in(0.15, 0.4)},
+                            .shape = Sphere{random.in(0.15, 0.4)},
                             .mass = random.in(5.0, 300.0),
                             .position = {random.in(-13.0, 13.0), random.in(-13.0, 13.0), random.in(0.0, 1.5)},
                             .above_ground = true,

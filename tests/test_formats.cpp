@@ -59,7 +59,7 @@ World struck_world(std::vector<std::string> formats = {}) {
                                         .spacing = 0.2,
                                         .height = [](double x, double y) { return 0.05 * x - 0.02 * y + 3; }},
                    .material = "mud"};
-  scene.bodies = {{.name = "ball", .shape = {0.5}, .mass = 800, .position = {3, 0, 0.3}, .above_ground = true}};
+  scene.bodies = {{.name = "ball", .shape = Sphere{0.5}, .mass = 800, .position = {3, 0, 0.3}, .above_ground = true}};
   scene.bombs = {{.time = 0.05, .position = {-2, 0, 0}, .above_ground = true, .yield = 2e-5}};
   scene.output.formats = std::move(formats);
   return make_world(scene);
@@ -279,7 +279,7 @@ TEST_F(Formats, Png16IsTerrainAgain) {
 TEST_F(Formats, PressureBearsTheBall) {
   Scene scene;
   scene.terrain = {.shape = GridTerrain{.columns = 41, .rows = 41, .spacing = 0.1}, .material = "mud"};
-  scene.bodies = {{.name = "ball", .shape = {0.6}, .mass = 500, .position = {0, 0, 0}, .above_ground = true}};
+  scene.bodies = {{.name = "ball", .shape = Sphere{0.6}, .mass = 500, .position = {0, 0, 0}, .above_ground = true}};
   World world = make_world(scene);
   run_to(world, 1.5);
   double push = 0;
@@ -290,7 +290,7 @@ TEST_F(Formats, PressureBearsTheBall) {
 TEST_F(Formats, EnergyFallsWithTheBall) {
   Scene scene;
   scene.terrain = {.shape = GridTerrain{.columns = 21, .rows = 21, .spacing = 0.2}, .material = "mud"};
-  scene.bodies = {{.name = "ball", .shape = {0.5}, .mass = 100, .position = {0, 0, 5}}};
+  scene.bodies = {{.name = "ball", .shape = Sphere{0.5}, .mass = 100, .position = {0, 0, 5}}};
   World world = make_world(scene);
   const Energy start = world.energy();
   EXPECT_NEAR(start.bodies_potential, 100 * 9.81 * 5, 1e-9);

@@ -153,7 +153,7 @@ TEST(MeshTerrain, ABombLeavesTheCraterItLeavesOnAGrid) {
 TEST(MeshTerrain, ABallRollsAndLeavesARut) {
   Scene scene = scene_on(patch(81, 31, 0.15), "mud");
   scene.bodies = {{.name = "wheel",
-                   .shape = {0.6},
+                   .shape = Sphere{0.6},
                    .mass = 500,
                    .position = kFar + Vec3d{-3, 0, -kFar.z},
                    .above_ground = true,

@@ -106,7 +106,7 @@ Scene rolling_scene(UpdatePolicy policy) {
   Scene scene;
   scene.terrain = {.shape = GridTerrain{.columns = 61, .rows = 41, .spacing = 0.25}, .material = "dry_sand"};
   scene.bodies = {{.name = "ball",
-                   .shape = {0.8},
+                   .shape = Sphere{0.8},
                    .mass = 1500,
                    .position = {-4, 0.1, 0},
                    .above_ground = true,

@@ -147,7 +147,7 @@ TEST(Scene, ReadsEveryKey) {
 
   ASSERT_EQ(s.bodies.size(), 2u);
   EXPECT_EQ(s.bodies[0].name, "ball");
-  EXPECT_EQ(s.bodies[0].shape.radius, 75);
+  EXPECT_EQ(std::get<Sphere>(s.bodies[0].shape).radius, 75);
   EXPECT_EQ(s.bodies[0].mass, 45);
   EXPECT_EQ(s.bodies[0].position, (Vec3d{-150, 20, 76}));
   EXPECT_TRUE(s.bodies[0].above_ground);
@@ -386,8 +386,7 @@ time = -1
 yield = 0
 )";
   EXPECT_EQ(errors_of(text),
-            "s.toml:5: bodies[0].shape.box: this shape is not supported; this version knows spheres: sphere = { radius "
-            "= 1.0 }\n"
+            "s.toml:5: bodies[0].shape.box.size: 1 is a number; expected [x, y, z] (m)\n"
             "s.toml:6: bodies[0].mas: unknown key; the nearest known key is mass\n"
             "s.toml:7: bodies[0].position: is a list of 1; expected [x, y, z], or [x, y] for on the ground (m)\n"
             "s.toml:9: bodies[1].name: bodies[0] is called \"x\" too; expected a unique name\n"

@@ -38,7 +38,7 @@ TEST(SoilBalance, HoldsUnderBallsOfAnyMassOnSlopes) {
         .material = material};
     for (int b = 0; b < 3; ++b)
       scene.bodies.push_back({.name = "ball " + std::to_string(b),
-                              .shape = {radius},
+                              .shape = Sphere{radius},
                               .mass = density * 4.19 * radius * radius * radius,
                               .position = {random.in(-15.0, 15.0) * spacing, random.in(-15.0, 15.0) * spacing,
                                            random.in(0.0, 3.0) * radius},
@@ -96,7 +96,7 @@ TEST(SoilBalance, HoldsAtTheBorder) {
                    .material = "mud"};
   scene.bombs = {{.time = 0.1, .position = {1.9, 0.3, 0}, .above_ground = true, .yield = 0.001}};
   scene.bodies = {{.name = "ball",
-                   .shape = {0.5},
+                   .shape = Sphere{0.5},
                    .mass = 900,
                    .position = {-1.9, 0, 0},
                    .above_ground = true,

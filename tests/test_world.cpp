@@ -89,7 +89,7 @@ Scene rut_scene() {
   Scene scene;
   scene.terrain = {.shape = GridTerrain{.columns = 81, .rows = 31, .spacing = 0.15}, .material = "mud"};
   scene.bodies = {{.name = "wheel",
-                   .shape = {0.6},
+                   .shape = Sphere{0.6},
                    .mass = 500,
                    .position = {-3, 0, 0},
                    .above_ground = true,
@@ -260,7 +260,7 @@ TEST(World, AboveGroundIsCountedFromTheGround) {
   Scene scene;
   scene.terrain.shape =
       GridTerrain{.columns = 41, .rows = 41, .spacing = 0.5, .height = [](double x, double) { return 3 + x; }};
-  scene.bodies = {{.name = "ball", .shape = {1.5}, .position = {2, 0, 0.25}, .above_ground = true}};
+  scene.bodies = {{.name = "ball", .shape = Sphere{1.5}, .position = {2, 0, 0.25}, .above_ground = true}};
   scene.bombs = {{.time = 9, .position = {-1, 0, 0.5}, .above_ground = true}};
   const World world = make_world(scene);
   EXPECT_NEAR(world.bombs()[0].position.z, 2.5, 1e-5);
@@ -281,7 +281,7 @@ TEST(World, WrongInputIsRefusedInWords) {
   World good = make_world(paper_scene());
   const std::uint64_t hash = good.state_hash();
   EXPECT_NE(first_error(good.spawn({.name = "x", .mass = -1})).find("mass"), std::string::npos);
-  EXPECT_NE(first_error(good.spawn({.name = "x", .shape = {std::nan("")}})).find("radius"), std::string::npos);
+  EXPECT_NE(first_error(good.spawn({.name = "x", .shape = Sphere{std::nan("")}})).find("radius"), std::string::npos);
   EXPECT_NE(first_error(good.spawn({.name = "far", .position = {1e4, 0, 0}, .above_ground = true})).find("no ground"),
             std::string::npos);
   EXPECT_NE(first_error(good.add_bomb({.yield = 0})).find("yield"), std::string::npos);

@@ -146,7 +146,7 @@ Scene ball_scene() {
     }
   scene.terrain = {.shape = collect_triangles(*place, 1e-6).value(), .material = "mud"};
   scene.bodies = {{.name = "ball",
-                   .shape = {1},
+                   .shape = Sphere{1},
                    .mass = 4000,
                    .position = {5008, 2015, 0},
                    .above_ground = true,
@@ -319,7 +319,7 @@ TEST(WorldNode, TurnedSoilHasItsColour) {
 TEST(UploadMeter, SendsLessThanEverything) {
   Scene scene;
   scene.terrain = {.shape = GridTerrain{.columns = 301, .rows = 301, .spacing = 0.2}, .material = "mud"};
-  scene.bodies = {{.shape = {0.6}, .mass = 500, .above_ground = true, .velocity = {3, 0, 0}}};
+  scene.bodies = {{.shape = Sphere{0.6}, .mass = 500, .above_ground = true, .velocity = {3, 0, 0}}};
   World world = World::create(scene).value();
   auto meter = UploadMeter::create(world, 64, 64);
   ASSERT_TRUE(meter) << meter.error().front().text();

@@ -31,7 +31,7 @@ double sinking_mass(const Material& soil, double radius, double gravity) {
 BodySettings ball(const World& world, const char* name, double radius) {
   const double gravity = length(world.scene().gravity);
   return {.name = name,
-          .shape = {.radius = radius},
+          .shape = Sphere{radius},
           .mass = sinking_mass(world.materials().front(), radius, gravity > 0 ? gravity : kStandardGravity)};
 }
 
@@ -55,9 +55,23 @@ double Toolbox::yield() const { return tons(yield_step_); }
 
 void Toolbox::next_body() { body_ = (body_ + 1) % bodies_.size(); }
 
+namespace {
+
+// Roughly: half of what a shape measures across.
+double radius_of(const Shape& shape) {
+  if (const auto* s = std::get_if<Sphere>(&shape)) return s->radius;
+  if (const auto* b = std::get_if<Box>(&shape)) return 0.5 * length(b->size);
+  if (const auto* c = std::get_if<Cylinder>(&shape)) return std::hypot(c->radius, 0.5 * c->length);
+  if (const auto* c = std::get_if<Capsule>(&shape)) return c->radius + 0.5 * c->length;
+  if (const auto* c = std::get_if<Cone>(&shape)) return std::hypot(c->radius, 0.5 * c->height);
+  return 1;
+}
+
+}  // namespace
+
 std::string Toolbox::body_text() const {
   const BodySettings& body = bodies_[body_];
-  return fmt::format("{}, {:.3g} m, {:.3g} kg", body.name.empty() ? "body" : body.name, 2 * body.shape.radius,
+  return fmt::format("{}, {:.3g} m, {:.3g} kg", body.name.empty() ? "body" : body.name, 2 * radius_of(body.shape),
                      body.mass);
 }
 
@@ -68,7 +82,7 @@ Result<void> Toolbox::bomb(World& world, double x, double y) const {
 Result<void> Toolbox::drop(World& world, double x, double y) const {
   BodySettings body = bodies_[body_];
   body.name = fmt::format("{} {}", body.name.empty() ? "body" : body.name, world.bodies().size() + 1);
-  body.position = {x, y, kFall * body.shape.radius};
+  body.position = {x, y, kFall * radius_of(body.shape)};
   body.above_ground = true;
   body.velocity = body.angular_velocity = {};
   return world.spawn(body).map([](BodyId) {});

@@ -42,7 +42,8 @@ int main(int argc, char** argv) {
   const divot::Vec3d center = mesh->vertices[mesh->vertices.size() / 2];
   divot::Scene scene;
   scene.terrain = {.shape = std::move(*mesh), .material = "dry_sand"};
-  scene.bodies = {{.name = "boulder", .shape = {3}, .mass = 200e3, .position = center + divot::Vec3d{-48, -4, 0}}};
+  scene.bodies = {
+      {.name = "boulder", .shape = divot::Sphere{3}, .mass = 200e3, .position = center + divot::Vec3d{-48, -4, 0}}};
   scene.bodies[0].position.z = 0;
   scene.bodies[0].above_ground = true;
   scene.bodies[0].velocity = {20, 0, 0};

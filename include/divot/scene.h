@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "divot/errors.h"
+#include "divot/joint.h"
 #include "divot/material.h"
 #include "divot/settings.h"
+#include "divot/shape.h"
 #include "divot/vec.h"
 
 namespace divot {
@@ -106,22 +108,23 @@ struct TerrainSource {
   std::uint64_t max_vertices = 20'000'000;  ///< a larger terrain is refused before memory is taken
 };
 
-/// A rigid ball.
-struct Sphere {
-  double radius = 1;  ///< m, > 0
-};
-
-/// A moving object.
+/// A moving rigid object.
 struct BodySettings {
   std::string name = {};      ///< names it in results; empty: it is told apart by its id
-  Sphere shape = {};          ///< what it looks like
+  Shape shape = Sphere{};     ///< what it looks like
   double mass = 1;            ///< kg, > 0
-  Vec3d position = {};        ///< of its centre, m, in the terrain's coordinates (docs/scene-format.md, "Coordinates")
+  Vec3d position = {};        ///< of its origin, m, in the terrain's coordinates (docs/scene-format.md, "Coordinates")
   bool above_ground = false;  ///< true: position.z is the height of its lowest point above the ground there
-  Vec3d velocity = {};        ///< m/s
-  Vec3d angular_velocity = {};  ///< rad/s
-  double restitution = 0.5;     ///< multiplied by the material's, [0, 1]
-  double friction = 0.8;        ///< Coulomb's, between body and soil and between bodies, >= 0
+  /// Bodies of one assembly that are `above_ground` keep their places to each other: position.z are heights within the
+  /// assembly, which is put down where its first body touches. Empty: for itself.
+  std::string assembly = {};
+  Vec3d rotation_deg = {};                   ///< about the fixed axes x, then y, then z, degrees
+  Vec3d velocity = {};                       ///< of its centre of mass, m/s
+  Vec3d angular_velocity = {};               ///< rad/s
+  std::optional<Vec3d> center_of_mass = {};  ///< in its own axes, m; default: of the shape, uniformly filled
+  std::optional<Vec3d> inertia = {};  ///< about its own axes through the centre of mass, kg m^2; default: likewise
+  double restitution = 0.5;           ///< multiplied by the material's, [0, 1]
+  double friction = 0.8;              ///< Coulomb's, between body and soil and between bodies, >= 0
 };
 
 /// A charge.
@@ -150,6 +153,7 @@ struct Scene {
   TerrainSource terrain = {};             ///< the ground
   std::vector<Material> materials = {};   ///< those the scene defines; presets need not be listed
   std::vector<BodySettings> bodies = {};  ///< what moves over it
+  std::vector<Joint> joints = {};         ///< what holds bodies together
   std::vector<Bomb> bombs = {};           ///< charges, in any order
   Settings solver = {};                   ///< how it is solved
   OutputSettings output = {};             ///< what a run writes

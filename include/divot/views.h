@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
 
+#include "divot/shape.h"
 #include "divot/vec.h"
 
 namespace divot {
@@ -42,17 +44,26 @@ struct ParticleView {
 
 /// A body as it is now.
 struct BodyView {
-  std::string name;          ///< as in the scene
-  double radius = 0;         ///< m
-  double mass = 0;           ///< kg
-  Vec3d position;            ///< of the centre, m, in the terrain's coordinates
-  Quat orientation;          ///< of its axes
-  Vec3d velocity;            ///< m/s
-  Vec3d angular_velocity;    ///< rad/s
-  double sinkage = 0;        ///< m, how deep its lowest contact lies below the original ground; 0 in the air
-  double max_sinkage = 0;    ///< m, the largest so far
-  bool touching = false;     ///< pressed ground at the end of the last step
-  bool off_terrain = false;  ///< has left the terrain and falls
+  std::string name;                    ///< as in the scene
+  double radius = 0;                   ///< m, of the ball round its centre of mass that holds it: a ball's own
+  double mass = 0;                     ///< kg
+  Vec3d position;                      ///< of the shape's origin, m, in the terrain's coordinates
+  Quat orientation;                    ///< of the shape's axes
+  Vec3d velocity;                      ///< of the centre of mass, m/s
+  Vec3d angular_velocity;              ///< rad/s
+  double sinkage = 0;                  ///< m, how deep its lowest contact lies below the original ground; 0 in the air
+  double max_sinkage = 0;              ///< m, the largest so far
+  bool touching = false;               ///< pressed ground at the end of the last step
+  bool off_terrain = false;            ///< has left the terrain and falls
+  std::shared_ptr<const Shape> shape;  ///< never null; hulls have their corners and triangles
+};
+
+/// A joint as it is now.
+struct JointView {
+  std::string name;        ///< as in the scene
+  double position = 0;     ///< m of travel; hinge: degrees of turn; wheel: m of suspension travel
+  double speed = 0;        ///< m/s; hinge, wheel: rad/s of turn or spin
+  double motor_force = 0;  ///< N or N m, what the motor gave in the last step
 };
 
 /// A bomb as it is now.

@@ -95,6 +95,16 @@ class World {
   /// Adds a body now. Fails like a scene with that body.
   Result<BodyId> spawn(const BodySettings& body);
 
+  /// Joins two bodies as they stand now, or one with the terrain. Fails like a scene with that joint.
+  Result<JointId> add_joint(const Joint& joint);
+
+  /// From now on the joint's motor strives for `speed` with at most `force`, as Joint::motor_speed and motor_force have
+  /// them, in place of its profiles. A fixed joint has no motor.
+  void set_motor(JointId joint, double speed, double force);
+
+  /// Steers a wheel to `angle_deg` from now on, in place of its profile.
+  void set_steering(JointId joint, double angle_deg);
+
   /// Adds a bomb; one whose time has passed goes off in the next step. Fails like a scene with that bomb.
   Result<void> add_bomb(const Bomb& bomb);
 
@@ -109,6 +119,7 @@ class World {
   SurfaceView surface() const;                  ///< the ground
   ParticleView particles() const;               ///< what is awake
   std::vector<BodyView> bodies() const;         ///< by BodyId
+  std::vector<JointView> joints() const;        ///< by JointId
   std::vector<BombView> bombs() const;          ///< by time
   std::span<const Material> materials() const;  ///< by index, as SurfaceView::materials refers to them
 

@@ -34,9 +34,9 @@ laws::Pressure<double> pressure_of(const state::Body& body, const Footing& f, do
   return laws::ground_pressure<double>(medium, sinkage, f.plastic, patch(body, s), medium.elastic_stiffness);
 }
 
-Contact frozen(const Footing& f, const Underside& under, const Vec3d& position, const Row& v) {
+Contact frozen(const Footing& f, const geometry::Underside& under, const Vec3d& position, const Row& v) {
   Contact c{.underside = under.height};
-  c.arm = {f.x - position.x, f.y - position.y, under.height - position.z};
+  c.arm = {f.arm_x - position.x, f.arm_y - position.y, under.height - position.z};
   const double steep = std::max(kSteepestFlank, -under.normal.z);
   const Vec3d lift{-under.normal.x / steep, -under.normal.y / steep, 1};
   c.slope = length(lift);
@@ -57,16 +57,17 @@ Contact frozen(const Footing& f, const Underside& under, const Vec3d& position, 
 
 }  // namespace
 
-void freeze_geometry(const state::Body& body, const std::vector<Footing>& footings, const Row& v, const Situation& s,
-                     std::vector<Contact>& contacts) {
-  contacts.clear();
-  const Vec3d position = body.position + s.dt * Vec3d{v[0], v[1], v[2]};
-  for (std::uint32_t k = 0; k < footings.size(); ++k) {
-    const Footing& f = footings[k];
-    const Underside under = underside(body, position, f.x, f.y);
+void freeze_geometry(const state::Body& body, const Scratch::Pose& start, const Row& v, const Situation& s,
+                     Scratch::PerBody& scratch) {
+  scratch.contacts.clear();
+  const Vec3d position = start.position + s.dt * Vec3d{v[0], v[1], v[2]};
+  scratch.end.place(*body.solid, position, math::spun(start.orientation, {v[3], v[4], v[5]}, s.dt));
+  for (std::uint32_t k = 0; k < scratch.footings.size(); ++k) {
+    const Footing& f = scratch.footings[k];
+    const geometry::Underside under = scratch.end.underside(f.x, f.y);
     if (!under.below) continue;
-    contacts.push_back(frozen(f, under, position, v));
-    contacts.back().footing = k;
+    scratch.contacts.push_back(frozen(f, under, position, v));
+    scratch.contacts.back().footing = k;
   }
 }
 

@@ -5,9 +5,10 @@
 
 namespace divot::contact {
 
-/// Freezes the geometry of every column that the body is over when it moves with `v` for this step. [O(footings)]
-void freeze_geometry(const state::Body& body, const std::vector<Footing>& footings, const Row& v, const Situation& s,
-                     std::vector<Contact>& contacts);
+/// Freezes the geometry of every column that the body is over when it moves with `v` from `start` for this step.
+/// [O(footings)]
+void freeze_geometry(const state::Body& body, const Scratch::Pose& start, const Row& v, const Situation& s,
+                     Scratch::PerBody& scratch);
 
 /// A column's vertical push, N, >= 0, and how fast it falls with the speed at which the underside rises, N s/m.
 struct Push {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "contact/gather.h"
 #include "contact/near.h"
@@ -14,11 +15,31 @@ namespace {
 // The surface may follow a body sideways by this share of the spacing in all, so that its triangles keep their shape.
 constexpr float kMostDrag = 0.1f;
 
-void meet_ground(state::Body& body, const Situation& s, Scratch::PerBody& scratch) {
+void meet_ground(state::Body& body, const Situation& s, Scratch::PerBody& scratch, Resistance& resistance) {
   body.near_left -= s.ground_moved;
+  scratch.start.place(*body.solid, body.position, body.orientation);
   find_near(body, s, scratch);
-  gather(body, s, scratch.presses, scratch.footings);
-  meet_soil(body, scratch.footings, s, scratch.contacts);
+  gather(body, s, scratch);
+  meet_soil(body, s, scratch, resistance);
+}
+
+// Of what joints and other bodies gave, the next step counts on what lasts: a blow is not expected again.
+void expect(state::Body& body, const std::optional<Row>& impulse) {
+  const auto size = [&](const Row& p) { return length(math::linear(p)) + length(math::angular(p)) / body.radius; };
+  const Row now = impulse.value_or(Row{});
+  body.held_impulse = size(now) > 2 * size(body.last_impulse) ? body.last_impulse : now;
+  body.last_impulse = now;
+}
+
+// The body is where the step has brought it.
+void leave_ground(state::Body& body, const std::optional<Row>& impulse, const Scratch::Pose& before, const Situation& s,
+                  Scratch::PerBody& scratch) {
+  if (impulse) answer_again(body, before, s, scratch);
+  expect(body, impulse);
+  std::swap(scratch.last, scratch.presses);
+  record_presses(body, scratch);
+  const double sweep = geometry::sweep_speed(*body.solid, body.orientation, body.angular_velocity);
+  body.near_left -= length(body.position - before.position) + sweep * s.dt;
 }
 
 bool pressed_before(const std::vector<Press>& last, std::uint32_t vertex) {
@@ -69,24 +90,34 @@ void press(const Press& press, state::Particles& p, state::Soil& soil, const sta
 
 }  // namespace
 
-void move_bodies(std::span<state::Body> bodies, RigidBodies& rigid, const Situation& s,
-                 std::vector<std::uint32_t>& wake, Scratch& scratch, const Jobs& jobs) {
-  scratch.bodies.resize(bodies.size());
+void move_bodies(std::span<state::Body> bodies, std::span<state::HeldJoint> joints, RigidBodies& rigid,
+                 const Situation& s, std::vector<std::uint32_t>& wake, Scratch& scratch, const Jobs& jobs) {
+  scratch.bodies.resize(bodies.size()), scratch.resistance.resize(bodies.size());
+  scratch.rows.clear(), scratch.first_row.assign(1, 0), scratch.before.clear();
+  for (state::HeldJoint& joint : joints) {
+    append_rows(joint, bodies, s.time, s.dt, scratch.rows);
+    scratch.first_row.push_back(scratch.rows.size());
+  }
+  // Guides look at the other bodies' velocities, which the soil's answer then changes.
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    find_guides(i, scratch.rows, bodies, scratch.bodies[i].guides);
+    scratch.before.push_back({bodies[i].position, bodies[i].orientation});
+  }
   const auto meet = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) meet_ground(bodies[i], s, scratch.bodies[i]);
+    for (std::size_t i = begin; i < end; ++i) meet_ground(bodies[i], s, scratch.bodies[i], scratch.resistance[i]);
   };
   jobs.for_ranges(bodies.size(), 4, std::ref(meet));  // by reference: a copy would be an allocation
-  std::vector<Vec3d>& before = scratch.before;
-  before.clear();
-  for (const state::Body& body : bodies) before.push_back(body.position);
-  rigid.advance(bodies, s.dt);
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    Scratch::PerBody& own = scratch.bodies[i];
-    std::swap(own.last, own.presses);
-    record_presses(bodies[i], own.footings, own.contacts, own.presses);
-    bodies[i].near_left -= length(bodies[i].position - before[i]);
-    wake_pressed(own, s.surface, wake);
+  rigid.advance(bodies, scratch.rows, scratch.resistance, s.dt);
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const std::size_t first = scratch.first_row[j], last = scratch.first_row[j + 1];
+    keep_impulses(joints[j], std::span(scratch.rows).subspan(first, last - first), s.dt);
   }
+  const auto leave = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      leave_ground(bodies[i], rigid.impulse(i), scratch.before[i], s, scratch.bodies[i]);
+  };
+  jobs.for_ranges(bodies.size(), 4, std::ref(leave));
+  for (const Scratch::PerBody& own : scratch.bodies) wake_pressed(own, s.surface, wake);
 }
 
 void carry(std::span<state::Body> bodies, state::Particles& particles, state::Soil& soil, const state::Surface& surface,

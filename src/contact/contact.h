@@ -4,11 +4,15 @@
 #include <span>
 #include <vector>
 
+#include "contact/joint_rows.h"
+#include "contact/resistance.h"
 #include "contact/rigid_bodies.h"
 #include "divot/jobs.h"
 #include "divot/settings.h"
 #include "geometry/bvh.h"
+#include "geometry/posed_solid.h"
 #include "laws/medium.h"
+#include "math/six.h"
 #include "state/bodies.h"
 #include "state/particles.h"
 #include "state/region.h"
@@ -17,7 +21,7 @@
 
 // stage     contact: bodies x surface
 // reads     surface, BVH, soil, particles, media
-// writes    bodies, list of vertices to wake; then (carry) particles and soil under the bodies
+// writes    bodies, joints, list of vertices to wake; then (carry) particles and soil under the bodies
 // parallel  over bodies while they look for ground and meet it; Bullet moves them together
 // sums      a body's columns in ascending order of vertex
 namespace divot::contact {
@@ -34,30 +38,26 @@ struct Answer {
 struct Footing {
   std::uint32_t vertex = 0;
   std::uint8_t material = 0;
-  bool carried = false;        ///< a body has it since the last step
-  double x = 0, y = 0;         ///< m: where the body meets it; at the vertex, but under the ball's lowest point there
-  Vec3 vertex_position;        ///< m
-  double above_vertex = 0;     ///< m, of the plane at x, y over the vertex
-  double height = 0;           ///< m: a body at or above it touches nothing
-  double fresh = 0;            ///< m: sinkage counts from here, less slack
-  double original = 0;         ///< m, before the first touch
-  double plastic = 0;          ///< m, permanent sinkage
-  double slack = 0;            ///< m the column stands too deep for its last pressure: gives no push
-  double area = 0, mass = 0;   ///< m^2, kg
-  double pull = 0, speed = 0;  ///< N, m/s: of the particle by its bonds, and upward
-  Vec3d shear;                 ///< m, shear displacement j
-  double load = 0;             ///< N, the push that the last pass of the solve found
-  Answer answer;               ///< likewise
+  bool carried = false;  ///< a body has it since the last step
+  double x = 0, y = 0;   ///< m: where the body meets it; at the vertex, but under what rolls on its line of touch
+  double arm_x = 0, arm_y = 0;  ///< m: where its push acts; the middle of its part under the body's edge, else x, y
+  Vec3 vertex_position;         ///< m
+  double above_vertex = 0;      ///< m, of the plane at x, y over the vertex
+  double height = 0;            ///< m: a body at or above it touches nothing
+  double fresh = 0;             ///< m: sinkage counts from here, less slack
+  double original = 0;          ///< m, before the first touch
+  double plastic = 0;           ///< m, permanent sinkage
+  double slack = 0;             ///< m the column stands too deep for its last pressure: gives no push
+  double area = 0, mass = 0;    ///< m^2, of the part that the body covers where its edge cuts through; kg
+  double pull = 0, speed = 0;   ///< N, m/s: of the particle by its bonds, and upward
+  Vec3d shear;                  ///< m, shear displacement j
+  double load = 0;              ///< N, the push that the last pass of the solve found
+  Answer answer;                ///< likewise
 };
 
 /// A row from a body's velocity and spin to a speed at one contact.
-using Row = std::array<double, 6>;
-
-inline double dot6(const Row& a, const Row& b) {
-  double sum = 0;
-  for (int i = 0; i < 6; ++i) sum += a[i] * b[i];
-  return sum;
-}
+using math::dot6;
+using math::Row;
 
 /// A column's answer to the body, with the geometry frozen where the body is expected to end the step.
 struct Contact {
@@ -85,13 +85,23 @@ struct Press {
 struct Scratch {
   struct PerBody {
     state::RegionScratch region;
+    geometry::PosedSolid start, end;  // the body at the start of the step and where it is expected at its end
     std::vector<std::uint32_t> found, previous, ring, next;
     std::vector<Footing> footings;
+    std::vector<geometry::Cover> covers;  // [footing] area, and area times place
     std::vector<Contact> contacts;
+    std::vector<Guide> guides;
     std::vector<Press> presses, last;
   };
   std::vector<PerBody> bodies;
-  std::vector<Vec3d> before;  // [body] where it was at the start of the step
+  struct Pose {
+    Vec3d position;
+    Quat orientation;
+  };
+  std::vector<Pose> before;            // [body] where it was at the start of the step
+  std::vector<Resistance> resistance;  // [body]
+  std::vector<ConstraintRow> rows;     // of all joints, one after the other
+  std::vector<std::size_t> first_row;  // [joint + 1]
 };
 
 /// What contact needs to know of the world.
@@ -105,12 +115,13 @@ struct Situation {
   double dt = 0;           ///< s
   float ground_moved = 0;  ///< m, at least as far as ground that no body carries moved in the last step
   UpdatePolicy policy;     ///< adaptive: half-edge walk from the last contact; otherwise the BVH is asked each step
+  double time = 0;         ///< s, at the start of the step
 };
 
-/// Bodies meet the ground and each other and move on by dt. Vertices that a body touches for the first time, and those
-/// around them, are appended to `wake`.
-void move_bodies(std::span<state::Body> bodies, RigidBodies& rigid, const Situation& s,
-                 std::vector<std::uint32_t>& wake, Scratch& scratch, const Jobs& jobs);
+/// Bodies meet the ground, each other and their joints and move on by dt. Vertices that a body touches for the first
+/// time, and those around them, are appended to `wake`.
+void move_bodies(std::span<state::Body> bodies, std::span<state::HeldJoint> joints, RigidBodies& rigid,
+                 const Situation& s, std::vector<std::uint32_t>& wake, Scratch& scratch, const Jobs& jobs);
 
 /// Particles under a body go where it pressed them, and the soil remembers. Every pressed vertex must be awake.
 void carry(std::span<state::Body> bodies, state::Particles& particles, state::Soil& soil, const state::Surface& surface,

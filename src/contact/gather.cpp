@@ -32,6 +32,7 @@ Vec3d fresh_normal(const Situation& s, std::uint32_t vertex) {
 Footing footing_at(std::uint32_t vertex, const Situation& s) {
   const Vec3 p = s.surface.position[vertex];
   Footing f{.vertex = vertex, .material = s.surface.material[vertex], .x = p.x, .y = p.y, .vertex_position = p};
+  f.arm_x = f.x, f.arm_y = f.y;
   f.height = f.fresh = f.original = p.z;
   const std::uint32_t column = s.surface.column[vertex];
   if (column == kNone) {
@@ -58,55 +59,211 @@ const Press* find_press(const std::vector<Press>& last, std::uint32_t vertex) {
   return at != last.end() && at->vertex == vertex ? &*at : nullptr;
 }
 
-// Vertices sample the ground too coarsely for a hard ball on hard ground: it would drop between them. The column
-// nearest to the point where the ball touches the slope is therefore met at that point instead of at its vertex.
-void meet_at_lowest_point(const state::Body& body, const Situation& s, std::vector<Footing>& footings) {
-  const Vec3d end = body.position + s.dt * body.velocity;
-  const auto nearest_to = [&](double x, double y) {
-    return std::min_element(footings.begin(), footings.end(), [&](const Footing& a, const Footing& b) {
-      return std::hypot(a.x - x, a.y - y) < std::hypot(b.x - x, b.y - y);
-    });
+// Meets a column at x, y instead of at its vertex, on the plane of the unpressed ground there.
+void meet_at(const Situation& s, double x, double y, Footing& f) {
+  const Vec3d normal = fresh_normal(s, f.vertex);
+  const double rise = -(normal.x * (x - f.x) + normal.y * (y - f.y)) / normal.z;
+  f.x = f.arm_x = x, f.y = f.arm_y = y;
+  for (double* height : {&f.above_vertex, &f.height, &f.fresh, &f.original}) *height += rise;
+}
+
+std::vector<Footing>::iterator nearest_to(double x, double y, std::vector<Footing>& footings) {
+  return std::min_element(footings.begin(), footings.end(), [&](const Footing& a, const Footing& b) {
+    return std::hypot(a.x - x, a.y - y) < std::hypot(b.x - x, b.y - y);
+  });
+}
+
+// Vertices sample the ground too coarsely for a hard ball or wheel on hard ground: it would drop between them. The
+// columns that its line of touch runs through are therefore met on that line instead of at their vertices.
+void meet_on_ridge(const geometry::PosedPiece& piece, const Situation& s, std::vector<Footing>& footings,
+                   std::vector<std::uint32_t>& beside) {
+  const Vec3d middle = 0.5 * (piece.low + piece.high);
+  const auto below = nearest_to(middle.x, middle.y, footings);
+  const auto ridge = piece.ridge(fresh_normal(s, below->vertex));
+  if (!ridge) return;
+  const double dx = ridge->to.x - ridge->from.x, dy = ridge->to.y - ridge->from.y, squared = dx * dx + dy * dy;
+  if (squared < 1e-12) {
+    const auto touched = nearest_to(ridge->from.x, ridge->from.y, footings);
+    const double half = 0.5 * s.surface.spacing;
+    if (std::abs(touched->x - ridge->from.x) <= half && std::abs(touched->y - ridge->from.y) <= half)
+      meet_at(s, ridge->from.x, ridge->from.y, *touched);
+    return;
+  }
+  // Of the columns beside the line those that are nearest to their own foot on it. By distance, not by cells: where the
+  // shear has drawn vertices apart, a wheel would find the gap between two cells.
+  const auto foot = [&](const Footing& f) {
+    const double t = std::clamp(((f.x - ridge->from.x) * dx + (f.y - ridge->from.y) * dy) / squared, 1e-6, 1 - 1e-6);
+    return Vec3d{ridge->from.x + t * dx, ridge->from.y + t * dy, 0};
   };
-  const auto below = nearest_to(end.x, end.y);
-  if (below == footings.end()) return;
-  const Vec3d slope = fresh_normal(s, below->vertex);
-  const double x = end.x - body.radius * slope.x, y = end.y - body.radius * slope.y;
-  const auto touched = nearest_to(x, y);
-  const double half = 0.5 * s.surface.spacing;
-  if (std::abs(touched->x - x) > half || std::abs(touched->y - y) > half) return;
-  const Vec3d normal = fresh_normal(s, touched->vertex);
-  touched->above_vertex = -(normal.x * (x - touched->x) + normal.y * (y - touched->y)) / normal.z;
-  touched->x = x, touched->y = y;
-  for (double* height : {&touched->height, &touched->fresh, &touched->original}) *height += touched->above_vertex;
+  const auto apart = [](const Footing& f, const Vec3d& p) { return std::hypot(f.x - p.x, f.y - p.y); };
+  beside.clear();
+  for (std::uint32_t k = 0; k < footings.size(); ++k)
+    if (apart(footings[k], foot(footings[k])) < s.surface.spacing) beside.push_back(k);
+  const std::size_t count = beside.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Footing& f = footings[beside[i]];
+    const Vec3d p = foot(f);
+    const double own = apart(f, p);
+    const auto beats = [&](std::uint32_t k) {
+      const double other = apart(footings[k], p);
+      return other < own || (other == own && k < beside[i]);
+    };
+    if (std::none_of(beside.begin(), beside.begin() + static_cast<std::ptrdiff_t>(count), beats))
+      beside.push_back(beside[i]);
+  }
+  for (std::size_t i = count; i < beside.size(); ++i) {
+    const Vec3d p = foot(footings[beside[i]]);
+    meet_at(s, p.x, p.y, footings[beside[i]]);
+  }
+}
+
+// From `start` over the half-edges to the vertex nearest to x, y.
+std::uint32_t walk_to(const state::Surface& surface, std::uint32_t start, double x, double y) {
+  const auto squared = [&](std::uint32_t v) {
+    const double dx = surface.position[v].x - x, dy = surface.position[v].y - y;
+    return dx * dx + dy * dy;
+  };
+  std::uint32_t at = start;
+  for (bool moved = true; moved;) {
+    moved = false;
+    double best = squared(at);
+    const std::uint32_t here = at;
+    surface.mesh.for_each_neighbour(here, [&](std::uint32_t u) {
+      if (const double d = squared(u); d < best) best = d, at = u, moved = true;
+    });
+  }
+  return at;
+}
+
+Footing* find_footing(std::vector<Footing>& footings, std::uint32_t vertex) {
+  const auto at = std::lower_bound(footings.begin(), footings.end(), vertex,
+                                   [](const Footing& f, std::uint32_t v) { return f.vertex < v; });
+  return at != footings.end() && at->vertex == vertex ? &*at : nullptr;
+}
+
+// Columns are met no nearer to a body's edge than this share of a cell, so that a wall which leans out a little, as
+// when a box has tilted, is not taken for the underside. Steeper than kFlat it is none.
+constexpr double kInside = 0.25, kFlat = 0.5;
+
+// The column well inside the outline that takes over what the body covers of the cell at `f`, outside of it.
+Footing* heir_of(const geometry::PosedPiece& piece, const Footing& f, double width, const state::Surface& surface,
+                 std::vector<Footing>& footings) {
+  double x = f.x, y = f.y;
+  Vec3d away;
+  // A corner is left in one direction after the other.
+  for (int turn = 0; turn < 3; ++turn) {
+    const double out = piece.outside(x, y, away);
+    if (out <= -0.49 * width) break;
+    x -= away.x * (out + 0.5 * width), y -= away.y * (out + 0.5 * width);
+  }
+  return find_footing(footings, walk_to(surface, f.vertex, x, y));
+}
+
+// Where the edge of a body stands in the ground it cuts through cells. Each column then counts with the area that is
+// covered and pushes in its middle; what is covered of cells whose vertices lie outside goes to the nearest column
+// inside, as only those are pressed. A plate's area and its balance are therefore exact on any grid, and steady when it
+// slides. Meeting the columns in those middles was tried: as these wander, the ground's memory of what pressed it did
+// not fit any more, and plates crept.
+void cover(const geometry::PosedSolid& body, double travel, const Situation& s, std::vector<Footing>& footings,
+           std::vector<geometry::Cover>& covers) {
+  covers.assign(footings.size(), {});
+  const auto add = [&](std::size_t k, const geometry::Cover& c, double sign) {
+    covers[k].area += sign * c.area, covers[k].x += sign * c.area * c.x, covers[k].y += sign * c.area * c.y;
+  };
+  bool any = false;
+  for (const geometry::PosedPiece& piece : body.pieces()) {
+    for (std::size_t k = 0; k < footings.size(); ++k) {
+      Footing& f = footings[k];
+      const double width = std::sqrt(f.area);
+      Vec3d away;
+      const double out = piece.outside(f.x, f.y, away);
+      if (std::abs(out) > 0.71 * width) continue;
+      // Is it the edge of a flat side, in the ground, or may it come there?
+      const double inward = out + kInside * width;
+      const geometry::Underside edge = piece.underside(f.x - away.x * inward, f.y - away.y * inward);
+      if (!edge.below || -edge.normal.z < kFlat || edge.height >= f.height + travel) continue;
+      any = true;
+      const geometry::Cover covered = piece.covered(f.x, f.y, width);
+      if (out <= 0) {
+        add(k, covered, 1), add(k, {f.area, f.vertex_position.x, f.vertex_position.y}, -1);
+        // The edge itself may move outward of the vertex within the step.
+        const double nudge = std::max(0.0, out + kInside * width);
+        f.x -= away.x * nudge, f.y -= away.y * nudge;
+      } else if (const Footing* heir = heir_of(piece, f, width, s.surface, footings);
+                 heir != nullptr && piece.underside(heir->x, heir->y).below) {
+        add(static_cast<std::size_t>(heir - footings.data()), covered, 1);
+      }
+    }
+  }
+  if (!any) return;
+  for (std::size_t k = 0; k < footings.size(); ++k) {
+    Footing& f = footings[k];
+    if (covers[k].area == 0 && covers[k].x == 0 && covers[k].y == 0) continue;
+    const Vec3 own = f.vertex_position;
+    add(k, {f.area, own.x, own.y}, 1);
+    const double least = 0.01 * f.area, area = covers[k].area;
+    f.area = std::max(area, least);
+    if (area > least) f.arm_x = covers[k].x / area, f.arm_y = covers[k].y / area;
+  }
+}
+
+// A body smaller than the cells may be over no vertex: the nearest column is met under its lowest point then, with the
+// area that the body covers.
+void meet_small_body(const geometry::PosedSolid& body, const Situation& s, std::vector<Footing>& footings) {
+  for (const geometry::PosedPiece& piece : body.pieces()) {
+    const auto over = [&](const Footing& f) { return piece.underside(f.x, f.y).below; };
+    if (piece.piece().kind == geometry::Piece::Kind::sphere) continue;  // its ridge is met wherever it is
+    if (std::any_of(footings.begin(), footings.end(), over)) continue;
+    const Vec3d low = piece.lowest();
+    const auto touched = nearest_to(low.x, low.y, footings);
+    if (std::hypot(touched->x - low.x, touched->y - low.y) > s.surface.spacing) continue;
+    // Just inside the outline, where the body is over it.
+    const Vec3d middle = 0.5 * (piece.low + piece.high);
+    meet_at(s, low.x + 1e-3 * (middle.x - low.x), low.y + 1e-3 * (middle.y - low.y), *touched);
+    touched->area = std::min(touched->area, (piece.high.x - piece.low.x) * (piece.high.y - piece.low.y));
+  }
 }
 
 // Ground that stands deeper than the pressure of the last step explains must not throw the body out. Where this body
-// pressed it, the rest is slack; where nothing did (a body born in the ground, a lip that rose under one), it counts as
-// pressed for good.
-void take_up_slack(const state::Body& body, const Situation& s, const std::vector<Press>& last, Footing& f) {
-  const Underside under = underside(body, body.position, f.x, f.y);
+// pressed it, the rest is slack. What comes under it deep down counts as pressed for good, be it that the body was born
+// in the ground, that its edge moved over a column or that a lip rose; but it answers with the mean pressure under the
+// body, else a plate whose edge plays over the columns would lose its support, and creep.
+void take_up_slack(const state::Body& body, const geometry::PosedSolid& posed, const Situation& s,
+                   const std::vector<Press>& last, double mean_pressure, Footing& f) {
+  const geometry::Underside under = posed.underside(f.x, f.y);
   if (!under.below || under.height >= f.height) return;
+  const laws::Medium& medium = s.media[f.material];
   const double sunk = f.fresh - under.height;
   if (f.carried) {
     const Press* press = find_press(last, f.vertex);
-    const double elastic = (press ? press->pressure : 0.0) / s.media[f.material].elastic_stiffness;
+    const double elastic = (press ? press->pressure : 0.0) / medium.elastic_stiffness;
     f.slack = std::max(0.0, sunk - f.plastic - elastic);
     f.fresh -= f.slack;
   } else {
-    f.plastic = std::max(f.plastic, sunk);
+    const double width = std::max<double>(body.patch_width, 0.5 * s.surface.spacing);
+    const double pressure = std::min(laws::bekker_pressure<double>(medium, sunk, width), mean_pressure);
+    f.plastic = std::max(f.plastic, sunk - pressure / medium.elastic_stiffness);
   }
 }
 
 }  // namespace
 
-void gather(const state::Body& body, const Situation& s, const std::vector<Press>& last,
-            std::vector<Footing>& footings) {
+void gather(const state::Body& body, const Situation& s, Scratch::PerBody& scratch) {
+  std::vector<Footing>& footings = scratch.footings;
   footings.clear();
   const double reach = step_reach(body, s);
   for (const std::uint32_t vertex : body.near)
-    if (within_reach(body, s.surface.position[vertex], reach)) footings.push_back(footing_at(vertex, s));
-  meet_at_lowest_point(body, s, footings);
-  for (Footing& f : footings) take_up_slack(body, s, last, f);
+    if (scratch.start.within_reach(s.surface.position[vertex], reach)) footings.push_back(footing_at(vertex, s));
+  if (footings.empty()) return;
+  scratch.end.place(*body.solid, body.position + s.dt * body.velocity,
+                    math::spun(body.orientation, body.angular_velocity, s.dt), true);
+  cover(scratch.end, reach - 0.5 * s.surface.spacing, s, footings, scratch.covers);
+  for (const geometry::PosedPiece& piece : scratch.end.pieces()) meet_on_ridge(piece, s, footings, scratch.found);
+  meet_small_body(scratch.end, s, footings);
+  double sum = 0;
+  for (const Press& press : scratch.presses) sum += press.pressure;
+  const double mean = scratch.presses.empty() ? 0 : sum / static_cast<double>(scratch.presses.size());
+  for (Footing& f : footings) take_up_slack(body, scratch.start, s, scratch.presses, mean, f);
 }
 
 }  // namespace divot::contact

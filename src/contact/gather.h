@@ -4,9 +4,8 @@
 
 namespace divot::contact {
 
-/// Fills `footings` with the columns within this step's reach of the body, ascending by vertex. `last`: what it pressed
-/// in the last step.
-void gather(const state::Body& body, const Situation& s, const std::vector<Press>& last,
-            std::vector<Footing>& footings);
+/// Fills scratch.footings with the columns within this step's reach of the body, ascending by vertex. scratch.presses:
+/// what it pressed in the last step; scratch.start: the body where it is.
+void gather(const state::Body& body, const Situation& s, Scratch::PerBody& scratch);
 
 }  // namespace divot::contact

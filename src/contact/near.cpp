@@ -28,9 +28,7 @@ std::uint32_t walk(const state::Body& body, const state::Surface& surface, std::
 
 // Every vertex within `reach` of the body's shadow that hangs together with `start` there, ascending. Ring by ring:
 // what a ring's neighbours meet again lies in that ring or the one before it.
-void flood(const state::Body& body, const state::Surface& surface, std::uint32_t start, double reach,
-           Scratch::PerBody& scratch) {
-  const double wide = (body.radius + reach) * (body.radius + reach);
+void flood(const state::Surface& surface, std::uint32_t start, double reach, Scratch::PerBody& scratch) {
   auto &found = scratch.found, &previous = scratch.previous, &ring = scratch.ring, &next = scratch.next;
   const auto has = [](const std::vector<std::uint32_t>& list, std::uint32_t u) {
     return std::binary_search(list.begin(), list.end(), u);
@@ -42,8 +40,8 @@ void flood(const state::Body& body, const state::Surface& surface, std::uint32_t
     next.clear();
     for (const std::uint32_t v : ring)
       surface.mesh.for_each_neighbour(v, [&](std::uint32_t u) {
-        if (horizontal_distance_squared(body, surface.position[u]) <= wide && !has(ring, u) && !has(previous, u))
-          next.push_back(u);
+        const Vec3 p = surface.position[u];
+        if (scratch.start.over(p.x, p.y, reach) && !has(ring, u) && !has(previous, u)) next.push_back(u);
       });
     std::sort(next.begin(), next.end());
     next.erase(std::unique(next.begin(), next.end()), next.end());
@@ -56,31 +54,16 @@ void flood(const state::Body& body, const state::Surface& surface, std::uint32_t
 
 // A walk can be trusted where it ended under the body and the ground there hangs together: no hole or border cuts the
 // shadow.
-bool shadow_is_whole(const state::Body& body, const state::Surface& surface, const std::vector<std::uint32_t>& found,
-                     double reach) {
-  const double edge = body.radius + reach;
-  return std::none_of(found.begin(), found.end(), [&](std::uint32_t v) {
-    return surface.mesh.is_boundary(v) && horizontal_distance_squared(body, surface.position[v]) < edge * edge;
-  });
+bool shadow_is_whole(const state::Surface& surface, const std::vector<std::uint32_t>& found) {
+  return std::none_of(found.begin(), found.end(), [&](std::uint32_t v) { return surface.mesh.is_boundary(v); });
 }
 
 }  // namespace
 
-Underside underside(const state::Body& body, const Vec3d& position, double x, double y) {
-  const double dx = x - position.x, dy = y - position.y, h_squared = body.radius * body.radius - dx * dx - dy * dy;
-  if (h_squared <= 0) return {};
-  const double h = std::sqrt(h_squared);
-  return {true, position.z - h, {dx / body.radius, dy / body.radius, -h / body.radius}};
-}
-
-bool within_reach(const state::Body& body, const Vec3& p, double reach) {
-  const double dx = p.x - body.position.x, dy = p.y - body.position.y, wide = body.radius + reach;
-  const double side = wide * wide - dx * dx - dy * dy;
-  return side >= 0 && p.z >= body.position.z - std::sqrt(side);
-}
-
 double step_reach(const state::Body& body, const Situation& s) {
-  const double travel = length(body.velocity) * s.dt + length(s.gravity) * s.dt * s.dt;
+  const double speed =
+      length(body.velocity) + geometry::sweep_speed(*body.solid, body.orientation, body.angular_velocity);
+  const double travel = speed * s.dt + length(s.gravity) * s.dt * s.dt;
   return travel + 0.5 * s.surface.spacing;
 }
 
@@ -94,23 +77,25 @@ void find_near(state::Body& body, const Situation& s, Scratch::PerBody& scratch)
   bool walked = false;
   if (adaptive && body.last_vertex != kNone) {
     const std::uint32_t below = walk(body, s.surface, body.last_vertex);
-    const double edge = body.radius + reach;
-    if (horizontal_distance_squared(body, s.surface.position[below]) < edge * edge) {
-      flood(body, s.surface, below, reach, scratch);
-      walked = shadow_is_whole(body, s.surface, scratch.found, reach);
+    const Vec3 p = s.surface.position[below];
+    if (scratch.start.over(p.x, p.y, reach)) {
+      flood(s.surface, below, reach, scratch);
+      walked = shadow_is_whole(s.surface, scratch.found);
     }
   }
   if (!walked) {
-    const Vec3 centre = to_float(body.position);
-    const float wide = static_cast<float>(body.radius + reach) * (1 + 1e-5f);
+    // Floats may round inward.
+    const double more = reach + 1e-5 * (body.radius + reach);
+    const Vec3 low = to_float(scratch.start.low() - Vec3d{more, more, more});
+    const Vec3 high = to_float(scratch.start.high() + Vec3d{more, more, more});
     math::Aabb column;
-    column.include(centre - Vec3{wide, wide, wide});
-    column.include(Vec3{centre.x + wide, centre.y + wide, math::Aabb::kInf});
+    column.include(low);
+    column.include(Vec3{high.x, high.y, math::Aabb::kInf});
     state::vertices_near(s.surface, s.bvh, column, scratch.region, scratch.found);
   }
   body.near.clear();
   for (const std::uint32_t v : scratch.found)
-    if (within_reach(body, s.surface.position[v], reach)) body.near.push_back(v);
+    if (scratch.start.within_reach(s.surface.position[v], reach)) body.near.push_back(v);
   body.near_left = reach;
 }
 

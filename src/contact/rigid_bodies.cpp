@@ -2,13 +2,51 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <algorithm>
 #include <vector>
+
+#include "contact/coupled_solver.h"
 
 namespace divot::contact {
 namespace {
 
 btVector3 to_bullet(const Vec3d& v) { return {v.x, v.y, v.z}; }
+btQuaternion to_bullet(const Quat& q) { return {q.x, q.y, q.z, q.w}; }
 Vec3d from_bullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+
+// Rounds of the solver at most, and the change of speed, m/s, that ends them.
+constexpr int kIterations = 100;
+constexpr double kStill = 1e-9;
+
+// Bullet rounds corners of hulls by this share of their size.
+constexpr double kHullMargin = 0.01;
+
+std::unique_ptr<btCollisionShape> make_shape(const geometry::Piece& piece) {
+  using Kind = geometry::Piece::Kind;
+  switch (piece.kind) {
+    case Kind::sphere:
+      return std::make_unique<btSphereShape>(piece.radius);
+    case Kind::box:
+      return std::make_unique<btBoxShape>(to_bullet(piece.half));
+    case Kind::cylinder:
+      return std::make_unique<btCylinderShape>(btVector3{piece.radius, piece.half_length, piece.radius});
+    case Kind::capsule:
+      return std::make_unique<btCapsuleShape>(piece.radius, 2 * piece.half_length);
+    case Kind::cone:
+      return std::make_unique<btConeShapeZ>(piece.radius, 2 * piece.half_length);
+    case Kind::hull:
+      break;
+  }
+  auto hull = std::make_unique<btConvexHullShape>();
+  double size = 0;
+  for (const Vec3d& corner : piece.hull->corners) {
+    hull->addPoint(to_bullet(corner), false);
+    size = std::max(size, length(corner - piece.hull->corners[0]));
+  }
+  hull->recalcLocalAabb();
+  hull->setMargin(kHullMargin * size);
+  return hull;
+}
 
 }  // namespace
 
@@ -16,12 +54,33 @@ struct RigidBodies::Bullet {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
-  btSequentialImpulseConstraintSolver solver;
+  CoupledSolver solver;
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
   std::vector<std::unique_ptr<btCollisionShape>> shapes;
+
+  // Of a solid: its piece, or a compound of its pieces.
+  btCollisionShape* add_shape(const geometry::Solid& solid) {
+    const auto place = [](const geometry::Piece& piece) {
+      return btTransform(to_bullet(piece.rotation), to_bullet(piece.position));
+    };
+    const bool single =
+        solid.pieces.size() == 1 && solid.pieces[0].position == Vec3d{} && solid.pieces[0].rotation == Quat{};
+    if (single) return shapes.emplace_back(make_shape(solid.pieces[0])).get();
+    auto compound = std::make_unique<btCompoundShape>();
+    for (const geometry::Piece& piece : solid.pieces)
+      compound->addChildShape(place(piece), shapes.emplace_back(make_shape(piece)).get());
+    return shapes.emplace_back(std::move(compound)).get();
+  }
   std::vector<std::unique_ptr<btRigidBody>> bodies;
 
-  Bullet() { world.setGravity({0, 0, 0}); }
+  Bullet() {
+    world.setGravity({0, 0, 0});
+    btContactSolverInfo& info = world.getSolverInfo();
+    // All bodies in one call: joints are ours, so that Bullet's islands know nothing of them.
+    info.m_minimumSolverBatchSize = 1 << 30;
+    info.m_numIterations = kIterations;
+    info.m_leastSquaresResidualThreshold = kStill;
+  }
   ~Bullet() {
     for (auto& body : bodies) world.removeRigidBody(body.get());
   }
@@ -33,24 +92,35 @@ RigidBodies::RigidBodies(RigidBodies&&) noexcept = default;
 RigidBodies& RigidBodies::operator=(RigidBodies&&) noexcept = default;
 
 void RigidBodies::add(const state::Body& body) {
-  auto& shape = bullet_->shapes.emplace_back(std::make_unique<btSphereShape>(body.radius));
-  btRigidBody::btRigidBodyConstructionInfo info(body.mass, nullptr, shape.get(),
-                                                {body.inertia, body.inertia, body.inertia});
+  btRigidBody::btRigidBodyConstructionInfo info(body.mass, nullptr, bullet_->add_shape(*body.solid),
+                                                to_bullet(body.inertia));
   info.m_restitution = body.restitution;
   info.m_friction = body.friction;
-  info.m_startWorldTransform.setIdentity();
-  info.m_startWorldTransform.setOrigin(to_bullet(body.position));
+  info.m_startWorldTransform = btTransform(to_bullet(body.orientation), to_bullet(body.position));
   auto& rigid = bullet_->bodies.emplace_back(std::make_unique<btRigidBody>(info));
+  rigid->setUserIndex(static_cast<int>(bullet_->bodies.size() - 1));
   // The soil decides when a body rests, not Bullet.
   rigid->setActivationState(DISABLE_DEACTIVATION);
   bullet_->world.addRigidBody(rigid.get());
 }
 
-void RigidBodies::advance(std::span<state::Body> bodies, double dt) {
+void RigidBodies::add(const state::HeldJoint& joint) {
+  if (joint.settings.collide || joint.first == kNone) return;
+  btRigidBody &first = *bullet_->bodies[joint.first], &second = *bullet_->bodies[joint.second];
+  first.setIgnoreCollisionCheck(&second, true), second.setIgnoreCollisionCheck(&first, true);
+}
+
+std::optional<math::Row> RigidBodies::impulse(std::size_t body) const {
+  return bullet_->solver.coupled(body) ? std::optional(bullet_->solver.impulse(body)) : std::nullopt;
+}
+
+void RigidBodies::advance(std::span<state::Body> bodies, std::span<ConstraintRow> rows,
+                          std::span<const Resistance> resistance, double dt) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     bullet_->bodies[i]->setLinearVelocity(to_bullet(bodies[i].velocity));
     bullet_->bodies[i]->setAngularVelocity(to_bullet(bodies[i].angular_velocity));
   }
+  bullet_->solver.prepare(rows, resistance);
   bullet_->world.stepSimulation(dt, 0);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const btRigidBody& rigid = *bullet_->bodies[i];

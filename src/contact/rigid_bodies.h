@@ -1,13 +1,18 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
+#include "contact/joint_rows.h"
+#include "contact/resistance.h"
 #include "state/bodies.h"
+#include "state/joints.h"
 
 namespace divot::contact {
 
-/// Bodies among themselves: Bullet's rigid body dynamics, without gravity, which comes with the soil's answer.
+/// Bodies among themselves: Bullet's rigid body dynamics with joints over soil, without gravity, which comes with the
+/// soil's answer.
 class RigidBodies {
  public:
   RigidBodies();
@@ -18,8 +23,16 @@ class RigidBodies {
   /// A body is known here by its place in the span that advance() gets.
   void add(const state::Body& body);
 
-  /// Moves all bodies by `dt`, s, with the velocities they have; where two collide, Bullet changes both.
-  void advance(std::span<state::Body> bodies, double dt);
+  /// Two bodies of a joint collide no more, unless the joint says so.
+  void add(const state::HeldJoint& joint);
+
+  /// Moves all bodies by `dt`, s, with the velocities they have; where joints hold them or two collide, these change,
+  /// against what resists. The impulses found come back in the joints' rows.
+  void advance(std::span<state::Body> bodies, std::span<ConstraintRow> rows, std::span<const Resistance> resistance,
+               double dt);
+
+  /// What joints and other bodies gave a body in the last step, N s and N m s; nothing where it had neither.
+  std::optional<math::Row> impulse(std::size_t body) const;
 
  private:
   struct Bullet;

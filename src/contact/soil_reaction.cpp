@@ -11,36 +11,42 @@
 namespace divot::contact {
 namespace {
 
+// Joints pull with this many times the inertia that a body has along their lines.
+constexpr double kGuide = 10;
+
 constexpr int kPasses = 3, kIterations = 40, kHalvings = 12;
 
-using Matrix6 = std::array<Row, 6>;
+using math::add_outer;
+using math::add_scaled;
+using math::Matrix6;
+using math::times;
 
-void add_scaled(Row& to, const Row& row, double factor) {
-  for (int i = 0; i < 6; ++i) to[i] += factor * row[i];
-}
-
-void add_outer(Matrix6& to, const Row& row, double factor) {
-  for (int r = 0; r < 6; ++r)
-    for (int c = 0; c <= r; ++c) to[r][c] += factor * row[r] * row[c];
-}
-
-// Solves A x = b for a symmetric positive definite A given by its lower half (Cholesky); x comes in b.
+// Solves A x = b; x comes in b.
 void solve(Matrix6& a, Row& b) {
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      double sum = a[i][j];
-      for (int k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
-      a[i][j] = i == j ? std::sqrt(sum) : sum / a[j][j];
-    }
+  math::factorize(a);
+  math::solve_factored(a, b);
+}
+
+Row moved(const Row& v, const Row& direction, double share) {
+  Row out = v;
+  add_scaled(out, direction, share);
+  return out;
+}
+
+// Mass and moments of inertia in the world's axes.
+Matrix6 inertia_of(const state::Body& body) {
+  Matrix6 m{};
+  for (int i = 0; i < 3; ++i) m[i][i] = body.mass;
+  const Vec3d i = body.inertia;
+  if (i.x == i.y && i.y == i.z) {
+    for (int k = 3; k < 6; ++k) m[k][k] = i.x;
+    return m;
   }
-  for (int i = 0; i < 6; ++i) {
-    for (int k = 0; k < i; ++k) b[i] -= a[i][k] * b[k];
-    b[i] /= a[i][i];
-  }
-  for (int i = 5; i >= 0; --i) {
-    for (int k = i + 1; k < 6; ++k) b[i] -= a[k][i] * b[k];
-    b[i] /= a[i][i];
-  }
+  const math::Matrix3 r = math::matrix_of(body.orientation);
+  for (int row = 0; row < 3; ++row)
+    for (int c = 0; c <= row; ++c)
+      m[3 + row][3 + c] = r[row].x * i.x * r[c].x + r[row].y * i.y * r[c].y + r[row].z * i.z * r[c].z;
+  return m;
 }
 
 // The six balances of momentum of one pass.
@@ -49,17 +55,26 @@ struct Balance {
   const std::vector<Footing>& footings;
   const std::vector<Contact>& contacts;
   const Situation& s;
-  Row start;  // velocity and spin with gravity and without soil
+  Row start;        // velocity and spin with gravity and without soil
+  Matrix6 inertia;  // lower half
+  std::span<const Guide> guides;
 
-  double inertia(int i) const { return i < 3 ? body.mass : body.inertia; }
+  // So stiff that the body's own inertia gives way to it.
+  double weight_of(const Guide& guide) const {
+    Matrix6 factor = inertia;
+    Row response = guide.line;
+    solve(factor, response);
+    return kGuide / dot6(guide.line, response);
+  }
 
   // What is missing in each balance at the velocities `v`; with `a`, its slope's negative as well.
   Row missing(const Row& v, Matrix6* a) const {
-    Row r;
-    for (int i = 0; i < 6; ++i) r[i] = inertia(i) * (start[i] - v[i]);
-    if (a != nullptr) {
-      *a = {};
-      for (int i = 0; i < 6; ++i) (*a)[i][i] = inertia(i);
+    Row r = times(inertia, moved(start, v, -1));
+    if (a != nullptr) *a = inertia;
+    for (const Guide& guide : guides) {
+      const double weight = weight_of(guide);
+      add_scaled(r, guide.line, weight * (guide.speed - dot6(guide.line, v)));
+      if (a != nullptr) add_outer(*a, guide.line, weight);
     }
     for (const Contact& c : contacts) {
       const Footing& f = footings[c.footing];
@@ -85,12 +100,6 @@ struct Balance {
     add_outer(a, across, s.dt * s.dt * shear.secant);
   }
 };
-
-Row moved(const Row& v, const Row& direction, double share) {
-  Row out = v;
-  add_scaled(out, direction, share);
-  return out;
-}
 
 // Newton's method on a convex function: `missing` is its negative gradient, so a step that still goes downhill at its
 // end is taken whole, and one that overshoots is cut where the slope along it changes sign.
@@ -120,7 +129,8 @@ void find_balance(const Balance& balance, Row& v) {
 
 // Newton's law of impact on top of the soil's plastic answer: once the soil has stopped the body, the share of the
 // speed of impact that restitution asks for comes back. Soil alone would return next to nothing.
-void rebound(state::Body& body, const std::vector<Footing>& footings, const std::vector<Contact>& contacts,
+// True when it did.
+bool rebound(state::Body& body, const std::vector<Footing>& footings, const std::vector<Contact>& contacts,
              const Row& v, const Vec3d& before, const Situation& s) {
   body.velocity = {v[0], v[1], v[2]};
   body.angular_velocity = {v[3], v[4], v[5]};
@@ -131,28 +141,76 @@ void rebound(state::Body& body, const std::vector<Footing>& footings, const std:
     sum += f.load * Vec3d{c.rise[0], c.rise[1], c.rise[2]};
     if (f.load > 0 && (hardest == nullptr || f.load > hardest->load)) hardest = &f;
   }
-  if (hardest == nullptr) return;
+  if (hardest == nullptr) return false;
   const Vec3d up = sum * (1 / length(sum));
   const double resting = 2 * length(s.gravity) * s.dt;  // what gravity alone brings is no impact
   const double approach = -dot(before, up);
   if (!body.touching && approach > resting) body.impact_speed = approach;
   const double leaving = dot(body.velocity, up);
-  if (body.impact_speed == 0 || leaving < -0.02 * body.impact_speed) return;
+  if (body.impact_speed == 0 || leaving < -0.02 * body.impact_speed) return false;
   const double wanted = body.restitution * s.media[hardest->material].restitution * body.impact_speed;
-  if (wanted > std::max(leaving, resting)) body.velocity += (wanted - leaving) * up;
+  const bool bounces = wanted > std::max(leaving, resting);
+  if (bounces) body.velocity += (wanted - leaving) * up;
   body.impact_speed = 0;
+  return bounces;
+}
+
+// The patch of ground that a body touches.
+struct Patch {
+  double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;  // m^2 times lengths
+
+  void add(double px, double py, double cell) {
+    area += cell, x += cell * px, y += cell * py;
+    const double own = cell / 12;  // of a square about its middle, by area
+    xx += cell * (px * px + own), yy += cell * (py * py + own), xy += cell * px * py;
+  }
+
+  // Bekker's b, m: the radius of a round patch, the smaller side of the rectangle that spreads like any other.
+  double width(bool round) const {
+    if (area <= 0) return 0;
+    if (round) return std::sqrt(area / std::numbers::pi);
+    const double a = xx - x * x / area, b = yy - y * y / area, c = xy - x * y / area;
+    const double middle = 0.5 * (a + b), spread = std::hypot(0.5 * (a - b), c);
+    return std::sqrt(area * std::sqrt(std::max(0.0, middle - spread) / (middle + spread)));
+  }
+};
+
+// Balls do, and what stands on a round end.
+bool touches_roundly(const state::Body& body) {
+  if (body.solid->pieces.size() != 1) return false;
+  const geometry::Piece& piece = body.solid->pieces[0];
+  using Kind = geometry::Piece::Kind;
+  if (piece.kind == Kind::sphere) return true;
+  if (piece.kind == Kind::box || piece.kind == Kind::hull) return false;
+  const math::Matrix3 axes = math::matrix_of(math::operator*(body.orientation, piece.rotation));
+  constexpr double kUpright = 0.7;
+  return std::abs(piece.kind == Kind::cone ? axes[2].z : axes[2].y) > kUpright;
 }
 
 }  // namespace
 
-void meet_soil(state::Body& body, std::vector<Footing>& footings, const Situation& s, std::vector<Contact>& contacts) {
+void meet_soil(state::Body& body, const Situation& s, Scratch::PerBody& scratch, Resistance& resistance) {
+  std::vector<Footing>& footings = scratch.footings;
+  std::vector<Contact>& contacts = scratch.contacts;
+  resistance = {inertia_of(body), body.held_impulse};
   const Vec3d before = body.velocity, falling = before + s.dt * s.gravity, spin = body.angular_velocity;
-  const Row start{falling.x, falling.y, falling.z, spin.x, spin.y, spin.z};
-  Row v = start;
-  const Balance balance{body, footings, contacts, s, start};
+  Row start = math::row(falling, spin);
+  if (body.held_impulse != Row{}) {
+    Matrix6 inertia = resistance.whole;
+    Row change = body.held_impulse;
+    solve(inertia, change);
+    add_scaled(start, change, 1);
+  }
+  // What carries a chassis would press its wheel deep into the ground without the soil: then the velocity it has is
+  // nearer to the one it will have, and with it the geometry.
+  Row v = body.held_impulse == Row{} ? start : math::row(before, spin);
+  Balance balance{body, footings, contacts, s, start, resistance.whole, scratch.guides};
   for (int pass = 0; pass < kPasses; ++pass) {
-    freeze_geometry(body, footings, v, s, contacts);
-    if (contacts.empty()) break;
+    freeze_geometry(body, {body.position, body.orientation}, v, s, scratch);
+    if (contacts.empty()) {
+      v = start;
+      break;
+    }
     // The first pass finds the load without friction; grip then comes from the load of the pass before.
     for (Contact& c : contacts) c.grip = grip_of(body, footings[c.footing], c, s);
     find_balance(balance, v);
@@ -160,33 +218,48 @@ void meet_soil(state::Body& body, std::vector<Footing>& footings, const Situatio
       footings[c.footing].load = push_of(body, footings[c.footing], c, dot6(c.rise, v), s).force;
   }
   for (const Contact& c : contacts) footings[c.footing].answer = answer_of(body, footings[c.footing], c, v, s);
-  rebound(body, footings, contacts, v, before, s);
+  if (!contacts.empty()) {
+    for (const Guide& guide : balance.guides)
+      add_scaled(resistance.steady, guide.line, balance.weight_of(guide) * (guide.speed - dot6(guide.line, v)));
+    balance.guides = {};
+    balance.missing(v, &resistance.whole);
+  }
+  // A body that bounces leaves the soil: joints must not be held against it.
+  if (rebound(body, footings, contacts, v, before, s)) resistance.whole = balance.inertia;
 }
 
-void record_presses(state::Body& body, const std::vector<Footing>& footings, const std::vector<Contact>& contacts,
-                    std::vector<Press>& presses) {
-  presses.clear();
+void answer_again(const state::Body& body, const Scratch::Pose& before, const Situation& s, Scratch::PerBody& scratch) {
+  const Row v = math::row(body.velocity, body.angular_velocity);
+  freeze_geometry(body, before, v, s, scratch);
+  for (const Contact& c : scratch.contacts)
+    scratch.footings[c.footing].answer = answer_of(body, scratch.footings[c.footing], c, v, s);
+}
+
+void record_presses(state::Body& body, Scratch::PerBody& scratch) {
+  scratch.presses.clear();
   body.sinkage = 0;
   body.last_vertex = kNone;
-  double area = 0, deepest = 0;
-  for (const Contact& c : contacts) {
-    const Footing& f = footings[c.footing];
-    const Underside under = underside(body, body.position, f.x, f.y);
+  double deepest = 0;
+  Patch patch;
+  if (!scratch.contacts.empty()) scratch.end.place(*body.solid, body.position, body.orientation);
+  for (const Contact& c : scratch.contacts) {
+    const Footing& f = scratch.footings[c.footing];
+    const geometry::Underside under = scratch.end.underside(f.x, f.y);
     if (!under.below || under.height >= f.height) continue;
     const Vec3d slid = f.answer.shear - f.shear;
     const Vec3 place = f.vertex_position + to_float({slid.x, slid.y, 0});
-    presses.push_back({f.vertex,
-                       {place.x, place.y, static_cast<float>(under.height - f.above_vertex)},
-                       to_float(f.answer.shear),
-                       static_cast<float>(f.answer.plastic),
-                       static_cast<float>(f.answer.pressure)});
-    area += f.area;
+    scratch.presses.push_back({f.vertex,
+                               {place.x, place.y, static_cast<float>(under.height - f.above_vertex)},
+                               to_float(f.answer.shear),
+                               static_cast<float>(f.answer.plastic),
+                               static_cast<float>(f.answer.pressure)});
+    patch.add(f.arm_x - body.position.x, f.arm_y - body.position.y, f.area);
     const double sunk = f.original - under.height;
     body.sinkage = std::max(body.sinkage, sunk);
     if (body.last_vertex == kNone || sunk > deepest) deepest = sunk, body.last_vertex = f.vertex;
   }
-  body.touching = !presses.empty();
-  body.patch_width = std::sqrt(area / std::numbers::pi);
+  body.touching = !scratch.presses.empty();
+  body.patch_width = patch.width(touches_roundly(body));
   body.max_sinkage = std::max(body.max_sinkage, body.sinkage);
 }
 

@@ -9,11 +9,15 @@ namespace divot::contact {
 /// restitution is owed, and each footing's load and answer.
 /// With the geometry frozen the balance is the minimum of a convex function, which Newton's method with a line search
 /// finds; three passes let geometry and grip follow. [O(passes x iterations x footings)]
-void meet_soil(state::Body& body, std::vector<Footing>& footings, const Situation& s, std::vector<Contact>& contacts);
+/// Joints and other bodies are taken to give what they gave in the last step; `resistance` is what any other impulse
+/// meets.
+void meet_soil(state::Body& body, const Situation& s, Scratch::PerBody& scratch, Resistance& resistance);
 
-/// Where the body, now at the end of its step, has pressed the ground to: `presses`, ascending by vertex. Also the
-/// body's sinkage, patch width and last contact.
-void record_presses(state::Body& body, const std::vector<Footing>& footings, const std::vector<Contact>& contacts,
-                    std::vector<Press>& presses);
+/// The footings' answers to the velocity that joints and other bodies left the body with; `before`: where it was.
+void answer_again(const state::Body& body, const Scratch::Pose& before, const Situation& s, Scratch::PerBody& scratch);
+
+/// Where the body, now at the end of its step, has pressed the ground to: scratch.presses, ascending by vertex. Also
+/// the body's sinkage, patch width and last contact.
+void record_presses(state::Body& body, Scratch::PerBody& scratch);
 
 }  // namespace divot::contact

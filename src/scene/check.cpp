@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/describe.h"
 
@@ -23,6 +24,13 @@ class Checker : public Visitor {
   void text(const Key&, std::string&) override {}
   void vector(const Key& key, Vec3d& value) override { note(out_of_range(name(key), key, value)); }
   void place(const Key& position, const Key&, Vec3d& value, bool&) override { vector(position, value); }
+  void maybe_number(const Key& key, std::optional<double>& value) override {
+    if (value) number(key, *value);
+  }
+  void maybe_vector(const Key& key, std::optional<Vec3d>& value) override {
+    if (value) vector(key, *value);
+  }
+  void profile(const Key& key, Profile& value) override { note(profile_error(name(key), key, value)); }
   void option(const Key& key, Names names, std::size_t& index) override {
     if (index >= names.size())
       note(Error{{}, 0, name(key), "no value of its enumeration", "expected " + one_of(names)});
@@ -87,6 +95,22 @@ std::optional<Error> out_of_range(const std::string& path, const Key& key, std::
 std::optional<Error> out_of_range(const std::string& path, const Key& key, const Vec3d& value) {
   for (const double component : {value.x, value.y, value.z}) {
     if (auto error = range_error(path, key, component, "numbers", number_text(component))) return error;
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> profile_error(const std::string& path, const Key& key, const Profile& profile) {
+  if (profile.points.empty())
+    return Error{{}, 0, path, "is empty", expectation("a number or [[time, number], ...]", key)};
+  for (std::size_t i = 0; i < profile.points.size(); ++i) {
+    const auto [time, value] = profile.points[i];
+    if (auto error = out_of_range(fmt::format("{}[{}]", path, i), key, value)) return error;
+    if (!(std::abs(time) <= 1e9) || (i > 0 && !(time > profile.points[i - 1].first)))
+      return Error{{},
+                   0,
+                   fmt::format("{}[{}]", path, i),
+                   fmt::format("time {} does not come after the one before", number_text(time)),
+                   "expected ascending times (s)"};
   }
   return std::nullopt;
 }

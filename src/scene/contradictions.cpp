@@ -183,6 +183,7 @@ void check_materials(const Scene& scene, Errors& errors) {
 void check_bodies(const Scene& scene, Errors& errors) {
   // Bodies without a name are told apart by their ids.
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    append(errors, contradictions(scene.bodies[i], fmt::format("bodies[{}]", i)));
     for (std::size_t j = 0; j < i; ++j) {
       if (scene.bodies[i].name.empty() || scene.bodies[j].name != scene.bodies[i].name) continue;
       errors.push_back({{},
@@ -234,6 +235,8 @@ Errors contradictions(const Scene& scene) {
   check_materials(scene, errors);
   check_layers(scene, errors);
   check_bodies(scene, errors);
+  for (std::size_t i = 0; i < scene.joints.size(); ++i)
+    append(errors, contradictions(scene.joints[i], scene, fmt::format("joints[{}]", i)));
   return errors;
 }
 

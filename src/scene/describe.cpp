@@ -1,17 +1,10 @@
 #include "scene/describe.h"
 
 #include "output/formats.h"
+#include "scene/bounds.h"
 
 namespace divot::scene {
 namespace {
-
-// Bounds that no sensible scene meets. They keep squares and products of lengths, speeds and masses inside float's
-// range.
-constexpr double kFar = 1e8;      // m: beyond every projected coordinate
-constexpr double kLong = 1e5;     // m: spacings and radii
-constexpr double kFast = 1e5;     // m/s, and rad/s
-constexpr double kHeavy = 1e12;   // kg, N/m, Pa and what else belongs to materials
-constexpr double kForever = 1e9;  // s
 
 // Ids count to 2^32 and a vertex has six half-edges.
 constexpr double kMostVertices = 7e8;
@@ -158,42 +151,6 @@ void describe_terrain(Visitor& v, TerrainSource& terrain) {
            .range = between(4, kMostVertices),
            .meaning = "a larger terrain is refused before memory is taken"},
           terrain.max_vertices);
-}
-
-void describe_shape(Visitor& v, Sphere& sphere) {
-  static constexpr const char* kLater[] = {"box", "cylinder", "capsule", "hull", "mesh"};
-  v.table({.name = "shape", .required = true, .example = "shape = { sphere = { radius = 1.0 } }"}, [&] {
-    v.unsupported({kLater, "this shape is not supported", "this version knows spheres: sphere = { radius = 1.0 }"});
-    v.table({.name = "sphere", .required = true, .example = "sphere = { radius = 1.0 }"}, [&] {
-      v.number({.name = "radius", .unit = "m", .range = above(0, kLong), .meaning = "of the ball", .required = true},
-               sphere.radius);
-    });
-  });
-}
-
-void describe_body(Visitor& v, BodySettings& body) {
-  v.text({.name = "name", .meaning = "unique; names the body in results", .default_text = "`body1`, `body2`, ..."},
-         body.name);
-  describe_shape(v, body.shape);
-  v.number({.name = "mass", .unit = "kg", .range = above(0, kHeavy), .meaning = "of the body", .required = true},
-           body.mass);
-  v.place({.name = "position",
-           .unit = "m",
-           .range = between(-kFar, kFar),
-           .meaning = "of its centre; two numbers put it on the ground at x, y",
-           .required = true},
-          {.name = "above_ground",
-           .meaning = "position's z is the height of the lowest point above the ground there",
-           .default_text = "`false`; `true` with two numbers"},
-          body.position, body.above_ground);
-  v.vector({.name = "velocity", .unit = "m/s", .range = between(-kFast, kFast), .meaning = "at the start"},
-           body.velocity);
-  v.vector({.name = "angular_velocity", .unit = "rad/s", .range = between(-kFast, kFast), .meaning = "at the start"},
-           body.angular_velocity);
-  v.number({.name = "restitution", .range = between(0, 1), .meaning = "multiplied by the material's"},
-           body.restitution);
-  v.number({.name = "friction", .range = between(0, 100), .meaning = "Coulomb's, with soil and with other bodies"},
-           body.friction);
 }
 
 void describe_bomb(Visitor& v, Bomb& bomb) {
@@ -422,7 +379,8 @@ void describe(Visitor& v, Scene& scene) {
            .example = "[terrain] with grid = { ... }, dem = \"file.tif\" or mesh = \"file.obj\""},
           [&] { describe_terrain(v, scene.terrain); });
   describe_materials(v, scene.materials);
-  v.list({.name = "bodies"}, scene.bodies, [&](BodySettings& body) { describe_body(v, body); });
+  v.list({.name = "bodies"}, scene.bodies, [&](BodySettings& body) { describe(v, body); });
+  v.list({.name = "joints"}, scene.joints, [&](Joint& joint) { describe(v, joint); });
   v.list({.name = "bombs"}, scene.bombs, [&](Bomb& bomb) { describe_bomb(v, bomb); });
   v.table({.name = "solver"}, [&] { describe_solver(v, scene.solver); });
   v.table({.name = "output"}, [&] { describe_output(v, scene.output); });

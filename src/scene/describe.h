@@ -11,4 +11,8 @@ void describe(Visitor& visitor, Scene& scene);
 /// The keys of one material, without its base.
 void describe(Visitor& visitor, Material& material);
 
+/// The keys of one body and of one joint.
+void describe(Visitor& visitor, BodySettings& body);
+void describe(Visitor& visitor, Joint& joint);
+
 }  // namespace divot::scene

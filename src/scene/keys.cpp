@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scene/describe.h"
+#include "scene/includes.h"
 
 namespace divot::scene {
 namespace {
@@ -30,6 +31,11 @@ class Lister : public Visitor {
   void place(const Key& position, const Key& above_ground, Vec3d& value, bool& above) override {
     add(position, "2 or 3 numbers", vector_text(value));
     flag(above_ground, above);
+  }
+  void maybe_number(const Key& key, std::optional<double>&) override { add(key, "number", "none"); }
+  void maybe_vector(const Key& key, std::optional<Vec3d>&) override { add(key, "3 numbers", "none"); }
+  void profile(const Key& key, Profile& value) override {
+    add(key, "number or list of [time, number]", number_text(value.points[0].second));
   }
   void option(const Key& key, Names names, std::size_t& index) override {
     add(key, "text", fmt::format("\"{}\"", names[index]));
@@ -73,6 +79,8 @@ std::vector<KeyInfo> scene_keys() {
   Lister lister;
   Scene defaults;
   describe(lister, defaults);
+  std::vector<Include> includes;
+  describe(lister, includes);
   return std::move(lister.keys);
 }
 

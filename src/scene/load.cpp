@@ -1,14 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "scene/check.h"
 #include "scene/describe.h"
+#include "scene/includes.h"
 #include "scene/overrides.h"
 #include "scene/reader.h"
 
@@ -34,9 +31,16 @@ Result<Scene> parse_scene(std::string_view text, const std::string& file, const 
   auto document = scene::parse_toml(text, file);
   if (!document) return tl::unexpected(document.error());
   Errors override_errors;
-  for (const Override& override : overrides) {
-    if (auto error = scene::apply_override(*document, override)) override_errors.push_back(std::move(*error));
-  }
+  const auto apply = [&](bool to_includes) {
+    for (const Override& override : overrides) {
+      if ((override.key.rfind("include", 0) == 0) != to_includes) continue;
+      if (auto error = scene::apply_override(*document, override)) override_errors.push_back(std::move(*error));
+    }
+  };
+  // What includes bring can be overridden like what the file says.
+  apply(true);
+  Errors errors = scene::expand_includes(*document, file);
+  apply(false);
 
   Scene scene;
   const std::filesystem::path path(file);
@@ -48,23 +52,18 @@ Result<Scene> parse_scene(std::string_view text, const std::string& file, const 
   name_bodies(scene.bodies);
   reader.add_located(check(scene));
 
-  Errors errors = reader.take_errors();
+  const Errors read = reader.take_errors();
+  // Without what an include should have brought, the rest would be held against what it lacks.
+  if (errors.empty()) errors = read;
   errors.insert(errors.end(), override_errors.begin(), override_errors.end());
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   return scene;
 }
 
 Result<Scene> load_scene(const std::string& path, const std::vector<Override>& overrides) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return fail({path, 0, {}, "is a folder", "expected a scene file"});
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (in && in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
-  if (!in.is_open() || in.bad()) {
-    return fail({path, 0, {}, fmt::format("cannot be read: {}", std::strerror(errno)), "expected a scene file"});
-  }
-  return parse_scene(text.str(), path, overrides);
+  const auto text = scene::read_scene_file(path);
+  if (!text) return tl::unexpected(text.error());
+  return parse_scene(*text, path, overrides);
 }
 
 }  // namespace divot

@@ -114,7 +114,7 @@ Result<Slot> find_slot(toml::table& document, std::span<const Part> parts) {
 
 }  // namespace
 
-std::string source_of(const Override& override) { return "--set " + override.key; }
+std::string source_of(const Override& override) { return kOverrideSource + override.key; }
 
 std::optional<Error> apply_override(toml::table& document, const Override& override) {
   const auto from_here = [&](Error error) {

@@ -8,6 +8,9 @@
 
 namespace divot::scene {
 
+/// How the source of an override's values begins: no file is called so.
+inline constexpr const char* kOverrideSource = "--set ";
+
 /// What errors call the source of an override's values: `--set bodies.0.mass`.
 std::string source_of(const Override& override);
 

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <tuple>
 
 #include "scene/keys.h"
 #include "scene/nearest.h"
+#include "scene/overrides.h"
 
 namespace divot::scene {
 namespace {
@@ -179,13 +181,13 @@ bool Reader::accept(const toml::node& node, std::optional<Error> error) {
 
 void Reader::add(const toml::source_region& where, Error error) {
   const bool from_override = overridden(where);
-  error.file = from_override ? *where.path : file_;
+  error.file = where.path ? *where.path : file_;
   error.line = from_override ? 0 : static_cast<int>(where.begin.line);
   (from_override ? override_errors_ : errors_).push_back(std::move(error));
 }
 
 bool Reader::overridden(const toml::source_region& where) const {
-  return where.path != nullptr && *where.path != file_;
+  return where.path != nullptr && where.path->rfind(kOverrideSource, 0) == 0;
 }
 
 std::string Reader::innermost(std::string path) const {
@@ -222,7 +224,9 @@ void Reader::add_located(const Errors& errors) {
 }
 
 Errors Reader::take_errors() {
-  std::stable_sort(errors_.begin(), errors_.end(), [](const Error& a, const Error& b) { return a.line < b.line; });
+  // The file itself first, then those it includes.
+  const auto place = [this](const Error& e) { return std::tuple(e.file != file_, std::string_view(e.file), e.line); };
+  std::stable_sort(errors_.begin(), errors_.end(), [&](const Error& a, const Error& b) { return place(a) < place(b); });
   errors_.insert(errors_.end(), override_errors_.begin(), override_errors_.end());
   override_errors_.clear();
   return std::move(errors_);

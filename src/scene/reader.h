@@ -30,6 +30,9 @@ class Reader : public Visitor {
   void text(const Key& key, std::string& value) override;
   void vector(const Key& key, Vec3d& value) override;
   void place(const Key& position, const Key& above_ground, Vec3d& value, bool& above) override;
+  void maybe_number(const Key& key, std::optional<double>& value) override;
+  void maybe_vector(const Key& key, std::optional<Vec3d>& value) override;
+  void profile(const Key& key, Profile& value) override;
   void option(const Key& key, Names names, std::size_t& index) override;
   void options(const Key& key, Names names, std::vector<std::string>& values) override;
   void legend(const Key& key, std::vector<LegendEntry>& entries) override;

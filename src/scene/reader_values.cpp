@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "scene/check.h"
 #include "scene/reader.h"
@@ -97,6 +99,41 @@ void Reader::place(const Key& position, const Key& above_ground, Vec3d& value, b
              "expected [x, y, z], or above_ground left out");
   }
   above = true;
+}
+
+void Reader::maybe_number(const Key& key, std::optional<double>& value) {
+  double read = std::numeric_limits<double>::quiet_NaN();
+  number(key, read);
+  if (!std::isnan(read)) value = read;
+}
+
+void Reader::maybe_vector(const Key& key, std::optional<Vec3d>& value) {
+  Vec3d read{std::numeric_limits<double>::quiet_NaN(), 0, 0};
+  vector(key, read);
+  if (!std::isnan(read.x)) value = read;
+}
+
+void Reader::profile(const Key& key, Profile& value) {
+  const std::string expected = expectation("a number or a list of [time, number]", key);
+  const toml::node* node = find(key, expected);
+  if (node == nullptr) return;
+  Profile read;
+  if (const auto constant = number_in(*node)) {
+    read = *constant;
+  } else {
+    const toml::array* list = node->as_array();
+    if (list == nullptr) return error_at(node, path_to(key.name), described(*node), expected);
+    read.points.clear();
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const toml::array* pair = (*list)[i].as_array();
+      const bool whole = pair != nullptr && pair->size() == 2 && number_in((*pair)[0]) && number_in((*pair)[1]);
+      if (!whole)
+        return error_at(&(*list)[i], fmt::format("{}[{}]", path_to(key.name), i), described((*list)[i]),
+                        "expected [time, number]");
+      read.points.emplace_back(*number_in((*pair)[0]), *number_in((*pair)[1]));
+    }
+  }
+  if (accept(*node, profile_error(path_to(key.name), key, read))) value = std::move(read);
 }
 
 void Reader::option(const Key& key, Names names, std::size_t& index) {

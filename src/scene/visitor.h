@@ -68,6 +68,11 @@ class Visitor {
   virtual void vector(const Key& key, Vec3d& value) = 0;
   /// A position of three numbers, or of two for one on the ground.
   virtual void place(const Key& position, const Key& above_ground, Vec3d& value, bool& above) = 0;
+  /// Values that may be left out.
+  virtual void maybe_number(const Key& key, std::optional<double>& value) = 0;
+  virtual void maybe_vector(const Key& key, std::optional<Vec3d>& value) = 0;
+  /// A number, or a list of [time, number] with ascending times.
+  virtual void profile(const Key& key, Profile& value) = 0;
   virtual void option(const Key& key, Names names, std::size_t& index) = 0;
   virtual void options(const Key& key, Names names, std::vector<std::string>& values) = 0;
   /// A table from pixels to names.

@@ -1,18 +1,25 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "divot/ids.h"
 #include "divot/vec.h"
+#include "geometry/solid.h"
 
 namespace divot::state {
 
-/// A rigid ball and what it touches. Positions are relative to the surface's origin.
+/// A rigid body and what it touches. Positions are relative to the surface's origin, and those of its centre of mass;
+/// its axes are its principal axes of inertia.
 struct Body {
   std::string name;
-  double radius = 1, mass = 1, inertia = 0.4;  // m, kg, kg m^2
+  std::shared_ptr<const geometry::Solid> solid;  ///< never null
+  std::shared_ptr<const Shape> shape;            ///< as it is drawn
+  double radius = 1, mass = 1;                   // m, of the ball round its centre of mass that holds it; kg
+  Vec3d inertia = {0.4, 0.4, 0.4};               // kg m^2, about its axes
   double restitution = 0.5, friction = 0.8;
   Vec3d position, velocity, angular_velocity;  // m, m/s, rad/s; contact/
   Quat orientation;
@@ -21,10 +28,12 @@ struct Body {
   std::vector<std::uint32_t>
       near;               ///< vertices that could touch it before it or they have moved by `near_left`, ascending
   double near_left = -1;  ///< m; negative: look again
-  std::uint32_t last_vertex = kNone;    ///< where the half-edge walk starts: last contact
-  bool touching = false;                ///< pressed ground at the end of the last step
-  double patch_width = 0;               ///< b of Bekker's law, m: radius of the patch it touches
-  double impact_speed = 0;              ///< m/s, what restitution gives back a share of; 0 when nothing is owed
+  std::uint32_t last_vertex = kNone;  ///< where the half-edge walk starts: last contact
+  bool touching = false;              ///< pressed ground at the end of the last step
+  double patch_width = 0;   ///< b of Bekker's law, m: radius of a round patch that it touches, smaller side of others
+  double impact_speed = 0;  ///< m/s, what restitution gives back a share of; 0 when nothing is owed
+  /// N s and N m s, of joints and other bodies: what the next step starts from, and what the last one had
+  std::array<double, 6> held_impulse{}, last_impulse{};
   double sinkage = 0, max_sinkage = 0;  ///< m below the original ground
   bool off_terrain = false;
 };

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <map>
 
 #include "terrain/material_map.h"
 #include "terrain/terrain.h"
+#include "world/place.h"
 #include "world/state.h"
 
 namespace divot {
@@ -42,57 +42,27 @@ std::vector<laws::Medium> media_of(const std::vector<Material>& materials) {
   return media;
 }
 
-// Height of a ball's centre over x, y at which it touches the plane of a face, if it would touch it inside the face.
-std::optional<double> height_on_face(const std::array<Vec3, 3>& corner, double x, double y, double radius) {
-  const Vec3d a = to_double(corner[0]), b = to_double(corner[1]), c = to_double(corner[2]);
-  const Vec3d across = cross(b - a, c - a);
-  const double size = length(across);
-  if (!(across.z > 0)) return std::nullopt;
-  const Vec3d normal = across * (1 / size);
-  const double px = x - radius * normal.x, py = y - radius * normal.y;
-  const auto side = [&](const Vec3d& p, const Vec3d& q) { return (q.x - p.x) * (py - p.y) - (q.y - p.y) * (px - p.x); };
-  if (side(a, b) < 0 || side(b, c) < 0 || side(c, a) < 0) return std::nullopt;
-  return a.z - (normal.x * (px - a.x) + normal.y * (py - a.y)) / normal.z + radius * normal.z;
-}
-
-// Height of the centre at which a ball over x, y just rests on the ground: on a face or on a vertex.
-std::optional<double> resting_height(const World::Impl& w, double x, double y, double radius) {
-  const float r = static_cast<float>(radius), px = static_cast<float>(x), py = static_cast<float>(y);
-  const state::SurfacePoint below = state::surface_at(w.surface, w.tree.bvh, px, py, w.region_scratch);
-  if (!below.found) return std::nullopt;
-  math::Aabb column;
-  column.include(Vec3{px - r, py - r, -math::Aabb::kInf});
-  column.include(Vec3{px + r, py + r, math::Aabb::kInf});
-  std::vector<std::uint32_t> faces;
-  w.tree.bvh.query(column, faces);
-  double height = below.position.z + radius;
-  for (const std::uint32_t face : faces) {
-    std::array<Vec3, 3> corner;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const Vec3 p = corner[k] = w.surface.position[w.surface.mesh.origin(3 * face + k)];
-      const double rise = radius * radius - (p.x - x) * (p.x - x) - (p.y - y) * (p.y - y);
-      if (rise > 0) height = std::max(height, p.z + std::sqrt(rise));
-    }
-    height = std::max(height, height_on_face(corner, x, y, radius).value_or(height));
+// Bodies of an assembly keep their places to each other: all are lifted by what the first to touch the ground needs.
+std::vector<BodySettings> standing(const World::Impl& w, std::vector<BodySettings> bodies) {
+  std::map<std::string, double> height;
+  const auto together = [](const BodySettings& body) { return body.above_ground && !body.assembly.empty(); };
+  const auto lift_of = [&](const BodySettings& body) -> std::optional<double> {
+    const auto placed = place::prepare(w, body);
+    return placed ? place::lift(w, body, *placed) : std::nullopt;  // what is wrong with it, spawn() will say
+  };
+  for (const BodySettings& body : bodies) {
+    if (!together(body)) continue;
+    const auto lift = lift_of(body);
+    if (!lift) continue;
+    const auto [at, fresh] = height.try_emplace(body.assembly, *lift - body.position.z);
+    if (!fresh) at->second = std::max(at->second, *lift - body.position.z);
   }
-  return height;
-}
-
-Result<Vec3d> place_body(const World::Impl& w, const BodySettings& body) {
-  const Vec3d local = body.position - w.surface.origin;
-  const state::SurfacePoint ground = state::surface_at(w.surface, w.tree.bvh, static_cast<float>(local.x),
-                                                       static_cast<float>(local.y), w.region_scratch);
-  if (!body.above_ground && ground.found && local.z < ground.position.z)
-    return fail({.key = fmt::format("bodies.{}.position", body.name),
-                 .problem = fmt::format("its centre lies {:.3g} m below the ground", ground.position.z - local.z),
-                 .expected = "a place above it, or position = [x, y] for on the ground"});
-  if (!body.above_ground) return local;
-  const auto height = resting_height(w, local.x, local.y, body.shape.radius);
-  if (!height)
-    return fail({.key = fmt::format("bodies.{}.position", body.name),
-                 .problem = fmt::format("there is no ground below ({}, {})", body.position.x, body.position.y),
-                 .expected = "a place on the terrain, or a height of its own: position = [x, y, z]"});
-  return Vec3d{local.x, local.y, *height + body.position.z};
+  for (BodySettings& body : bodies) {
+    if (!together(body) || !height.contains(body.assembly)) continue;
+    body.position.z += height[body.assembly] + w.surface.origin.z;
+    body.above_ground = false;
+  }
+  return bodies;
 }
 
 Result<Bomb> place_bomb(const World::Impl& w, Bomb bomb) {
@@ -140,7 +110,9 @@ Result<World> World::create(const Scene& scene, std::shared_ptr<const Jobs> jobs
   const auto keep_errors = [&](const auto& result) {
     if (!result) errors.insert(errors.end(), result.error().begin(), result.error().end());
   };
-  for (const BodySettings& body : scene.bodies) keep_errors(world.spawn(body));
+  for (const BodySettings& body : standing(*world.impl_, scene.bodies)) keep_errors(world.spawn(body));
+  if (errors.empty())
+    for (const Joint& joint : scene.joints) keep_errors(world.add_joint(joint));
   for (const Bomb& bomb : scene.bombs) keep_errors(world.add_bomb(bomb));
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   return world;
@@ -150,18 +122,26 @@ Result<BodyId> World::spawn(const BodySettings& settings) {
   Scene alone;
   alone.bodies.push_back(settings);
   if (Errors errors = check(alone); !errors.empty()) return tl::unexpected(std::move(errors));
-  const Result<Vec3d> position = place_body(*impl_, settings);
-  if (!position) return tl::unexpected(position.error());
+  auto placed = place::prepare(*impl_, settings);
+  if (!placed) return tl::unexpected(placed.error());
+  if (settings.above_ground) {
+    const auto lift = place::lift(*impl_, settings, *placed);
+    if (!lift) return fail(place::no_ground(settings));
+    placed->origin.z = *lift + settings.position.z;
+  }
+  if (const auto good = place::check_place(*impl_, settings, *placed); !good) return tl::unexpected(good.error());
 
-  const double r = settings.shape.radius;
   state::Body body;
   body.name = settings.name;
-  body.radius = r;
+  body.solid = placed->solid, body.shape = placed->shape;
+  body.radius = body.solid->radius;
   body.mass = settings.mass;
-  body.inertia = 0.4 * settings.mass * r * r;
+  body.inertia = settings.mass * body.solid->inertia;
   body.restitution = settings.restitution;
   body.friction = settings.friction;
-  body.position = *position;
+  using math::operator*;
+  body.orientation = rotation(settings.rotation_deg) * math::conjugate(body.solid->axes);
+  body.position = placed->origin - math::rotate(body.orientation, body.solid->origin);
   body.velocity = settings.velocity;
   body.angular_velocity = settings.angular_velocity;
   impl_->rigid.add(body);

@@ -109,8 +109,9 @@ Energy energy(std::span<const state::Body> bodies, const state::Particles& parti
               const Vec3d& origin) {
   Energy sum;
   for (const state::Body& b : bodies) {
-    sum.bodies_kinetic +=
-        0.5 * (b.mass * dot(b.velocity, b.velocity) + b.inertia * dot(b.angular_velocity, b.angular_velocity));
+    const Vec3d spin = math::rotate(math::conjugate(b.orientation), b.angular_velocity);
+    const Vec3d squares{spin.x * spin.x, spin.y * spin.y, spin.z * spin.z};
+    sum.bodies_kinetic += 0.5 * (b.mass * dot(b.velocity, b.velocity) + dot(b.inertia, squares));
     sum.bodies_potential -= b.mass * dot(gravity, b.position + origin);
   }
   for (std::size_t i = 0; i < particles.size(); ++i) {

@@ -112,10 +112,11 @@ void World::Impl::move_bodies(StepReport& report) {
                                        scene.gravity,
                                        scene.dt,
                                        moved.free_distance,
-                                       scene.solver.bvh_update};
-    contact::move_bodies(bodies, rigid, situation, wake, contact_scratch, *jobs);
+                                       scene.solver.bvh_update,
+                                       time()};
+    contact::move_bodies(bodies, joints, rigid, situation, wake, contact_scratch, *jobs);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      report.not_finite |= rescue(bodies[i], contact_scratch.before[i]);
+      report.not_finite |= rescue(bodies[i], contact_scratch.before[i].position);
       bodies[i].off_terrain = bodies[i].near.empty() && bodies[i].position.z < lowest - 2 * bodies[i].radius;
     }
   });

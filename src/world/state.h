@@ -16,6 +16,7 @@
 #include "settle/settle.h"
 #include "state/blasts.h"
 #include "state/bodies.h"
+#include "state/joints.h"
 #include "state/particles.h"
 #include "state/soil.h"
 #include "state/surface.h"
@@ -45,6 +46,7 @@ struct World::Impl {
   state::Particles particles;
   state::Bonds bonds;
   std::vector<state::Body> bodies;
+  std::vector<state::HeldJoint> joints;
   std::vector<PlannedBomb> bombs;
   std::vector<state::Blast> blasts;
   double lowest = 0;  ///< m, of the terrain as it was loaded

@@ -35,8 +35,10 @@ ParticleView World::particles() const {
 std::vector<BodyView> World::bodies() const {
   std::vector<BodyView> views;
   for (const state::Body& b : impl_->bodies)
-    views.push_back({b.name, b.radius, b.mass, b.position + impl_->surface.origin, b.orientation, b.velocity,
-                     b.angular_velocity, b.sinkage, b.max_sinkage, b.touching, b.off_terrain});
+    views.push_back({b.name, b.radius, b.mass,
+                     b.position + math::rotate(b.orientation, b.solid->origin) + impl_->surface.origin,
+                     math::operator*(b.orientation, b.solid->axes), b.velocity, b.angular_velocity, b.sinkage,
+                     b.max_sinkage, b.touching, b.off_terrain, b.shape});
   return views;
 }
 

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+
+#include "divot/scene.h"
+#include "geometry/solid.h"
+#include "world/state.h"
+
+namespace divot::place {
+
+/// A body as it comes into a world.
+struct Placed {
+  std::shared_ptr<const geometry::Solid> solid;
+  std::shared_ptr<const Shape> shape;  ///< as it is drawn
+  Vec3d origin;                        ///< of the shape, m, relative to the surface's origin; z as the scene has it
+};
+
+/// Reads what the shape needs. Fails naming the file or the shape.
+Result<Placed> prepare(const World::Impl& w, const BodySettings& body);
+
+/// Height above `origin` (z = 0) by which the body must be lifted so that it just rests on the ground; nothing where
+/// there is none below it. [O(vertices below it)]
+std::optional<double> lift(const World::Impl& w, const BodySettings& body, const Placed& placed);
+
+/// What is wrong with the body's place, if anything.
+Result<void> check_place(const World::Impl& w, const BodySettings& body, const Placed& placed);
+
+/// The error of a place without ground.
+Error no_ground(const BodySettings& body);
+
+}  // namespace divot::place
