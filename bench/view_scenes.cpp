@@ -12,7 +12,7 @@ Result<Scene> rolling_scene(const std::string&) {
   Scene scene;
   scene.terrain = {.shape = GridTerrain{.columns = 501, .rows = 501, .spacing = 0.15}, .material = "mud"};
   scene.bodies = {
-      {.name = "ball", .shape = {0.6}, .mass = 500, .position = {}, .above_ground = true, .velocity = {6, 2, 0}}};
+      {.name = "ball", .shape = Sphere{0.6}, .mass = 500, .position = {}, .above_ground = true, .velocity = {6, 2, 0}}};
   return scene;
 }
 

@@ -380,7 +380,7 @@ TEST(EventsCrater, ABallOnGroundZeroDoesNotHoldTheGround) {
   scene.terrain.material = "dry_sand";
   scene.bombs[0].time = 1;
   const Crater without = blow(scene, 3).craters().at(0);
-  scene.bodies = {{.name = "ball", .shape = {.radius = 1}, .mass = 100, .position = {}, .above_ground = true}};
+  scene.bodies = {{.name = "ball", .shape = Sphere{1}, .mass = 100, .position = {}, .above_ground = true}};
   const World world = blow(scene, 3);
   // The ball dents the crater's floor when it falls into it.
   EXPECT_NEAR(world.craters().at(0).depth, without.depth, 0.1 * without.depth);

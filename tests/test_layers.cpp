@@ -21,7 +21,7 @@ Scene road_scene(double spacing, int count) {
 
 Scene with_ball(double mass) {
   Scene scene = road_scene(0.1, 31);
-  scene.bodies = {{.name = "ball", .shape = {.radius = 0.5}, .mass = mass, .position = {}, .above_ground = true}};
+  scene.bodies = {{.name = "ball", .shape = Sphere{0.5}, .mass = mass, .position = {}, .above_ground = true}};
   return scene;
 }
 

@@ -181,7 +181,7 @@ TEST_F(MaterialMapTest, RutsEndAtTheBorder) {
   constexpr double kSpacing = 0.1;
   scene.terrain.shape = GridTerrain{.columns = 80, .rows = 30, .spacing = kSpacing};
   scene.bodies = {{.name = "ball",
-                   .shape = {.radius = 0.4},
+                   .shape = Sphere{0.4},
                    .mass = 300,
                    .position = {-2.5, 0, 0},
                    .above_ground = true,

@@ -38,7 +38,7 @@ int main() {
                                   .height = [](double x, double y) { return std::sin(0.1 * x) + 0.02 * y; }},
       .material = "dry_sand"};
   scene.bodies = {{.name = "boulder",
-                   .shape = {0.8},
+                   .shape = divot::Sphere{0.8},
                    .mass = 3000,
                    .position = {-10, 0, 0},
                    .above_ground = true,

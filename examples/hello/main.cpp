@@ -6,7 +6,7 @@
 int main() {
   divot::Scene scene;
   scene.terrain = {.shape = divot::GridTerrain{.columns = 81, .rows = 81, .spacing = 0.1}, .material = "mud"};
-  scene.bodies = {{.name = "ball", .shape = {0.5}, .mass = 600, .above_ground = true}};
+  scene.bodies = {{.name = "ball", .shape = divot::Sphere{0.5}, .mass = 600, .above_ground = true}};
   auto world = divot::World::create(scene);
   if (!world) {
     for (const divot::Error& error : world.error()) std::cerr << error.text() << '\n';
