@@ -32,7 +32,7 @@ Scene with_balls(int count) {
   Scene scene = ground();
   for (int k = 0; k < count; ++k)
     scene.bodies.push_back({.name = fmt::format("ball {}", k),
-                            .shape = {.radius = 0.5},
+                            .shape = Sphere{0.5},
                             .mass = 500,
                             .position = place(k, count),
                             .above_ground = true,

@@ -48,7 +48,7 @@ Scene bowl() {
   scene.terrain.material = "dry_sand";
   for (int k = 0; k < 5; ++k)
     scene.bodies.push_back({.name = "ball " + std::to_string(k),
-                            .shape = {.radius = 1},
+                            .shape = Sphere{1},
                             .mass = 3000,
                             .position = {4.0 * k - 8, 3.0 * k - 6, 0},
                             .above_ground = true,
