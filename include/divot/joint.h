@@ -36,18 +36,18 @@ enum class JointType : std::uint8_t {
 /// Holds `second` to `first`. Anchor and axes are in the axes of `second` as it stands when the joint is made, so that
 /// a joint goes with its bodies wherever they are placed.
 struct Joint {
-  std::string name = {};             ///< names it for programs; may be empty
+  std::string name = {};              ///< names it for programs; may be empty
   JointType type = JointType::hinge;  ///< what it leaves free
-  std::string first = {};  ///< name of a body; empty: the terrain itself
-  std::string second = {};   ///< name of the body that is held
-  Vec3d anchor = {};                 ///< from the position of `second`, m
-  Vec3d axis = {0, 0, 1};            ///< of turning or travel, any length > 0
-  Vec3d axle = {0, 1, 0};            ///< of a wheel's spin, across `axis`
-  double stiffness = 0;              ///< of a spring's or wheel's travel, N/m, >= 0
-  double damping = 0;                ///< likewise, N s/m, >= 0
-  double preload = 0;                ///< force of the spring where the joint is made, along `axis` on `first`, N
-  std::optional<double> lower = {};  ///< least travel of `second` along `axis`, m; hinge: angle, degrees
-  std::optional<double> upper = {};  ///< largest
+  std::string first = {};             ///< name of a body; empty: the terrain itself
+  std::string second = {};            ///< name of the body that is held
+  Vec3d anchor = {};                  ///< from the position of `second`, m
+  Vec3d axis = {0, 0, 1};             ///< of turning or travel, any length > 0
+  Vec3d axle = {0, 1, 0};             ///< of a wheel's spin, across `axis`
+  double stiffness = 0;               ///< of a spring's or wheel's travel, N/m, >= 0
+  double damping = 0;                 ///< likewise, N s/m, >= 0
+  double preload = 0;                 ///< force of the spring where the joint is made, along `axis` on `first`, N
+  std::optional<double> lower = {};   ///< least travel of `second` along `axis`, m; hinge: angle, degrees
+  std::optional<double> upper = {};   ///< largest
   Profile motor_speed = {};   ///< what the motor strives for: m/s along `axis`; hinge, wheel: rad/s about axis, axle
   Profile motor_force = {};   ///< the most it gives, N, or N m; 0: no motor
   Profile steering_deg = {};  ///< angle of a wheel about `axis`, degrees

@@ -53,8 +53,8 @@ using ConvexShape = std::variant<Sphere, Box, Cylinder, Capsule, Cone, Hull>;
 /// One convex piece of a compound.
 struct Part {
   ConvexShape shape = Sphere{};  ///< what it looks like
-  Vec3d position = {};      ///< of the part's origin in the body's axes, m
-  Vec3d rotation_deg = {};  ///< about x, then y, then z of the body, degrees
+  Vec3d position = {};           ///< of the part's origin in the body's axes, m
+  Vec3d rotation_deg = {};       ///< about x, then y, then z of the body, degrees
 };
 
 /// Convex parts that are one rigid body; the origin is that of the parts' positions. Where parts overlap, mass counts
