@@ -158,9 +158,12 @@ void ViewSession::wait_until_it_listens() {
         return exists(folder_ / "test_001.png") ? "listens" : "";
       },
       "the window does not listen to keys");
-  // Late pictures are waited for, then all are counted.
-  sleep(0.5);
-  while (exists(folder_ / fmt::format("test_{:03}.png", pictures_ + 1))) ++pictures_;
+  // Late pictures are waited for until none has come for a while, then all are counted.
+  for (int before = -1; before != pictures_;) {
+    before = pictures_;
+    sleep(1.5);
+    while (exists(folder_ / fmt::format("test_{:03}.png", pictures_ + 1))) ++pictures_;
+  }
 }
 
 ViewSession::~ViewSession() {
