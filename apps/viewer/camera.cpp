@@ -13,11 +13,12 @@ constexpr double kDegree = std::numbers::pi / 180;
 // Low enough above the horizon for relief, high enough to see into a crater; standing a little east of south.
 constexpr double kElevation = 31 * kDegree;
 constexpr double kAzimuth = 24 * kDegree;
-constexpr double kFillWhole = 0.96;    // share of the picture that the whole terrain takes up
-constexpr double kFillPart = 0.85;     // and what is framed on terrain that goes on around it
-constexpr double kBodyMargin = 1.15;   // of the radius around a body
-constexpr double kBlock = 0.045;       // thickness of the terrain's block over its extent
-constexpr double kWholeTerrain = 0.5;  // what is wider than this share of the terrain shows all of it
+constexpr double kFillWhole = 0.96;   // share of the picture that the whole terrain takes up
+constexpr double kFillPart = 0.85;    // and what is framed on terrain that goes on around it
+constexpr double kBodyMargin = 1.15;  // of the radius around a body
+constexpr double kBlock = 0.045;      // thickness of the terrain's block over its extent
+// What is wider than this share of the terrain shows all of it; bodies need room to go somewhere.
+constexpr double kWholeTerrain = 0.5, kWholeTerrainBodies = 0.15;
 
 // Reach of a crater with its lip and blanket: about one apparent width, which is 7.13 m for 1 t by eq. 10.
 double blast_reach(double yield) { return 7.13 * std::cbrt(yield); }
@@ -125,8 +126,9 @@ double block_base(const Region& terrain) { return terrain.min.z - kBlock * terra
 
 namespace {
 
-bool shows_whole_terrain(const Region& events, const Region& terrain) {
-  return !(events.extent() > 0) || events.extent() > kWholeTerrain * terrain.extent();
+bool shows_whole_terrain(const Region& events, const Region& terrain, bool has_bodies) {
+  const double share = has_bodies ? kWholeTerrainBodies : kWholeTerrain;
+  return !(events.extent() > 0) || events.extent() > share * terrain.extent();
 }
 
 bool contains(const Region& r, const Vec3d& p) {
@@ -147,7 +149,7 @@ Framing frame(const SurfaceView& surface, std::span<const BodyView> bodies, std:
   Framing framing;
   framing.region = empty_region();
   for (const Subject& s : subjects) include(framing.region, s.center, s.radius);
-  const bool whole = shows_whole_terrain(framing.region, terrain);
+  const bool whole = shows_whole_terrain(framing.region, terrain, !bodies.empty());
   if (whole) {
     framing.region = terrain;
     framing.region.min.z = block_base(terrain);
