@@ -90,6 +90,24 @@ TEST(Toolbox, BallsPressIntoTheirSoilAndNotThroughIt) {
   }
 }
 
+TEST(Toolbox, BallsAreWeighedForTheSoilBelowThem) {
+  Scene scene;
+  for (const char* name : {"asphalt", "mud"}) scene.materials.push_back(*find_preset(name));
+  MeshTerrain ground;
+  for (std::uint32_t i = 0; i < 30 * 30; ++i) {
+    ground.vertices.push_back({i % 30 * 1.0, i / 30 * 1.0, 0});
+    ground.materials.push_back(i % 30 < 15 ? 0 : 1);
+    if (i % 30 == 29 || i / 30 == 29) continue;
+    for (const std::uint32_t corner : {i, i + 1, i + 31, i, i + 31, i + 30}) ground.triangles.push_back(corner);
+  }
+  scene.terrain.shape = ground;
+  World world = World::create(scene, std::make_shared<const Jobs>(1)).value();
+  const Toolbox tools(world);
+  ASSERT_TRUE(tools.drop(world, 5, 15));
+  ASSERT_TRUE(tools.drop(world, 25, 15));
+  EXPECT_GT(world.bodies()[0].mass, 10 * world.bodies()[1].mass) << "asphalt carries more than mud";
+}
+
 TEST(CameraControl, KeepsWhatItShould) {
   const Camera start{.eye = {100, -200, 120}, .target = {10, 20, 5}};
   CameraControl control(start);

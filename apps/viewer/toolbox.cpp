@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace divot::viewer {
 namespace {
@@ -28,20 +29,27 @@ double sinking_mass(const Material& soil, double radius, double gravity) {
   return pressure * std::numbers::pi * touching * touching / gravity;
 }
 
-BodySettings ball(const World& world, const char* name, double radius) {
-  const double gravity = length(world.scene().gravity);
-  return {.name = name,
-          .shape = Sphere{radius},
-          .mass = sinking_mass(world.materials().front(), radius, gravity > 0 ? gravity : kStandardGravity)};
+// What the ground is made of at x, y: of the nearest vertex.
+const Material& soil_at(const World& world, double x, double y) {
+  const SurfaceView surface = world.surface();
+  const auto away = [&](const Vec3& p) { return std::hypot(p.x + surface.origin.x - x, p.y + surface.origin.y - y); };
+  const auto nearest = std::min_element(surface.positions.begin(), surface.positions.end(),
+                                        [&](const Vec3& a, const Vec3& b) { return away(a) < away(b); });
+  return world.materials()[surface.materials[static_cast<std::size_t>(nearest - surface.positions.begin())]];
 }
 
 }  // namespace
 
-Toolbox::Toolbox(const World& world) : bodies_(world.scene().bodies) {
+Toolbox::Toolbox(const World& world) {
+  const auto& bodies = world.scene().bodies;
+  const std::vector<BodyView> views = world.bodies();
+  for (std::size_t i = 0; i < bodies.size(); ++i) tools_.push_back({.body = bodies[i], .radius = views[i].radius});
+  tool_ = tools_.size();
   const double spacing = world.surface().spacing;
-  bodies_.push_back(ball(world, "small ball", kBallSpacings * spacing));
-  bodies_.push_back(ball(world, "boulder", kBoulderSpacings * spacing));
-  body_ = bodies_.size() - 2;
+  for (const auto& [name, spacings] : {std::pair("small ball", kBallSpacings), {"boulder", kBoulderSpacings}}) {
+    const double radius = spacings * spacing;
+    tools_.push_back({.body = {.name = name, .shape = Sphere{radius}}, .radius = radius, .weighed = true});
+  }
   // As large as the scene's own bombs; otherwise a crater of a dozen cells.
   double wanted = std::pow(12 * spacing / 7.13, 3);  // eq. 10
   for (const Bomb& bomb : world.scene().bombs) wanted = bomb.yield;
@@ -53,26 +61,14 @@ void Toolbox::change_yield(bool up) { yield_step_ = std::clamp(yield_step_ + (up
 
 double Toolbox::yield() const { return tons(yield_step_); }
 
-void Toolbox::next_body() { body_ = (body_ + 1) % bodies_.size(); }
-
-namespace {
-
-// Roughly: half of what a shape measures across.
-double radius_of(const Shape& shape) {
-  if (const auto* s = std::get_if<Sphere>(&shape)) return s->radius;
-  if (const auto* b = std::get_if<Box>(&shape)) return 0.5 * length(b->size);
-  if (const auto* c = std::get_if<Cylinder>(&shape)) return std::hypot(c->radius, 0.5 * c->length);
-  if (const auto* c = std::get_if<Capsule>(&shape)) return c->radius + 0.5 * c->length;
-  if (const auto* c = std::get_if<Cone>(&shape)) return std::hypot(c->radius, 0.5 * c->height);
-  return 1;
-}
-
-}  // namespace
+void Toolbox::next_body() { tool_ = (tool_ + 1) % tools_.size(); }
 
 std::string Toolbox::body_text() const {
-  const BodySettings& body = bodies_[body_];
-  return fmt::format("{}, {:.3g} m, {:.3g} kg", body.name.empty() ? "body" : body.name, 2 * radius_of(body.shape),
-                     body.mass);
+  const Tool& tool = tools_[tool_];
+  const std::string text =
+      fmt::format("{}, {:.3g} m", tool.body.name.empty() ? "body" : tool.body.name, 2 * tool.radius);
+  return tool.weighed ? text + ", as heavy as its soil just carries"
+                      : fmt::format("{}, {:.3g} kg", text, tool.body.mass);
 }
 
 Result<void> Toolbox::bomb(World& world, double x, double y) const {
@@ -80,10 +76,16 @@ Result<void> Toolbox::bomb(World& world, double x, double y) const {
 }
 
 Result<void> Toolbox::drop(World& world, double x, double y) const {
-  BodySettings body = bodies_[body_];
+  const Tool& tool = tools_[tool_];
+  BodySettings body = tool.body;
+  if (tool.weighed) {
+    const double gravity = length(world.scene().gravity);
+    body.mass = sinking_mass(soil_at(world, x, y), tool.radius, gravity > 0 ? gravity : kStandardGravity);
+  }
   body.name = fmt::format("{} {}", body.name.empty() ? "body" : body.name, world.bodies().size() + 1);
-  body.position = {x, y, kFall * radius_of(body.shape)};
+  body.position = {x, y, kFall * tool.radius};
   body.above_ground = true;
+  body.assembly.clear();
   body.velocity = body.angular_velocity = {};
   return world.spawn(body).map([](BodyId) {});
 }

@@ -10,8 +10,8 @@ namespace divot::viewer {
 /// What a hand can throw into a world: a bomb of a chosen yield and bodies to choose from.
 class Toolbox {
  public:
-  /// The bodies are those of the scene, and two balls in proportion to its ground: heavy enough for its soil to give
-  /// way.
+  /// The bodies are those of the scene, and two balls in proportion to its ground: heavy enough for the soil that they
+  /// are dropped on to give way.
   explicit Toolbox(const World& world);
 
   /// Steps of 1, 2, 5, 10 ... from 0.1 t to 100 kt. `up` false: less.
@@ -24,13 +24,19 @@ class Toolbox {
 
   /// Sets off a bomb on the ground at x, y, m, in the terrain's coordinates, in the next step.
   Result<void> bomb(World& world, double x, double y) const;
-  /// Lets the chosen body fall from above the ground at x, y.
+  /// Lets the chosen body fall from above the ground at x, y. [O(vertices) for a ball that its soil weighs]
   Result<void> drop(World& world, double x, double y) const;
 
  private:
+  struct Tool {
+    BodySettings body;
+    double radius;         // m, of the ball that holds it
+    bool weighed = false;  // gets its mass from the soil that it is dropped on
+  };
+
   int yield_step_ = 0;  // thirds of a power of ten
-  std::vector<BodySettings> bodies_;
-  std::size_t body_ = 0;
+  std::vector<Tool> tools_;
+  std::size_t tool_ = 0;
 };
 
 }  // namespace divot::viewer
