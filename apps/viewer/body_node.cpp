@@ -1,28 +1,47 @@
 #include "viewer/body_node.h"
 
-#include <osg/MatrixTransform>
+#include "viewer/shape_mesh.h"
 
 namespace divot::viewer {
 
-BodyNode::BodyNode(osg::ref_ptr<osg::Node> sphere) : sphere_(std::move(sphere)), root_(new osg::Group) {}
+bool is_ball(const BodyView& body) { return !body.shape || std::holds_alternative<Sphere>(*body.shape); }
+
+BodyNode::BodyNode(osg::ref_ptr<osg::Node> sphere)
+    : sphere_(std::move(sphere)), root_(new osg::Group), balls_(new osg::Group), solids_(new osg::Group) {
+  root_->addChild(balls_);
+  root_->addChild(solids_);
+}
 
 void BodyNode::update(const Vec3d& origin, std::span<const BodyView> bodies) {
-  // Bodies are never removed from a world, so child i is body i; another world may have fewer.
-  const auto count = static_cast<unsigned>(bodies.size());
-  if (root_->getNumChildren() > count) root_->removeChildren(count, root_->getNumChildren() - count);
-  while (root_->getNumChildren() < count) {
-    osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
-    place->addChild(sphere_);
-    root_->addChild(place);
+  // Bodies are never removed from a world; another world may have fewer, or others.
+  for (std::size_t i = bodies.size(); i < places_.size(); ++i) {
+    balls_->removeChild(places_[i].node);
+    solids_->removeChild(places_[i].node);
   }
-  for (unsigned i = 0; i < count; ++i) {
+  places_.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
     const BodyView& body = bodies[i];
     const Vec3d p = body.position - origin;
     const Quat& q = body.orientation;
-    auto* place = static_cast<osg::MatrixTransform*>(root_->getChild(i));
-    place->setMatrix(osg::Matrixd::scale(body.radius, body.radius, body.radius) *
-                     osg::Matrixd::rotate(osg::Quat(q.x, q.y, q.z, q.w)) * osg::Matrixd::translate(p.x, p.y, p.z));
+    const double size = is_ball(body) ? body.radius : 1;
+    Place& place = places_[i];
+    if (!place.node || place.shape != body.shape) make_place(place, body.shape);
+    place.node->setMatrix(osg::Matrixd::scale(size, size, size) * osg::Matrixd::rotate(osg::Quat(q.x, q.y, q.z, q.w)) *
+                          osg::Matrixd::translate(p.x, p.y, p.z));
   }
 }
+
+void BodyNode::make_place(Place& place, const std::shared_ptr<const Shape>& shape) {
+  if (place.node) {
+    balls_->removeChild(place.node);
+    solids_->removeChild(place.node);
+  }
+  place = {shape, new osg::MatrixTransform};
+  const bool ball = !shape || std::holds_alternative<Sphere>(*shape);
+  place.node->addChild(ball ? sphere_ : make_shape(*shape, *sphere_));
+  (ball ? balls_ : solids_)->addChild(place.node);
+}
+
+void BodyNode::hide(std::uint32_t body) { places_[body].node->setNodeMask(0); }
 
 }  // namespace divot::viewer

@@ -16,6 +16,7 @@ void main() {
 
 inline constexpr char kBallPattern[] = R"(
 uniform vec3 ball_color, pattern_color;
+uniform float pattern_share;
 in vec3 local;
 
 // 1 within `width` of a line at 0, smooth over a pixel.
@@ -32,7 +33,7 @@ vec3 patterned() {
   // ring sin(4 angle) / 4, without the angle.
   float meridian = p.x * p.y * (p.x * p.x - p.y * p.y) / max(ring * ring * ring, 1e-9);
   float mark = max(line(meridian, 0.014) * smoothstep(0.10, 0.14, ring), line(p.z, 0.045));
-  return mix(ball_color, pattern_color, mark);
+  return mix(ball_color, pattern_color, mark * pattern_share);
 }
 )";
 

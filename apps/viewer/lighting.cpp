@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/body_node.h"
 #include "viewer/shaders.h"
 
 namespace divot::viewer {
@@ -125,6 +126,7 @@ void Lighting::set_haze(double distance) { haze_range_->set(osg::Vec2(osg::Vec2d
 void Lighting::set_occluders(const Vec3d& origin, std::span<const BodyView> bodies) {
   std::vector<std::size_t> order(bodies.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
+  std::erase_if(order, [&](std::size_t i) { return !is_ball(bodies[i]); });
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return bodies[a].radius > bodies[b].radius; });
   order.resize(std::min<std::size_t>(order.size(), kMaxOccluders));

@@ -42,7 +42,7 @@ class Lighting {
   /// Haze begins at `distance` from the eye, m, > 0.
   void set_haze(double distance);
 
-  /// Call after set_focus(). Bodies darken the ground beneath them, and throw round shadows where the quality is fast.
+  /// Call after set_focus(). Balls darken the ground beneath them, and throw round shadows where the quality is fast.
   /// `origin`: the surface's. [O(bodies log bodies)]
   void set_occluders(const Vec3d& origin, std::span<const BodyView> bodies);
 

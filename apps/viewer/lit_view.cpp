@@ -27,6 +27,7 @@ osg::ref_ptr<osg::Group> balls(osg::Node& child, osg::Program* program, const os
   osg::ref_ptr<osg::Group> group = group_of(child, program);
   group->getOrCreateStateSet()->addUniform(new osg::Uniform("ball_color", color));
   group->getOrCreateStateSet()->addUniform(new osg::Uniform("pattern_color", pattern));
+  group->getOrCreateStateSet()->addUniform(new osg::Uniform("pattern_share", 1.0f));
   return group;
 }
 
@@ -38,8 +39,8 @@ LitView::LitView(const Subjects& subjects, const Sun& sun, Quality quality)
       root_(new osg::Group),
       lighting_(sun, quality) {
   for (osg::Group* caster : {&subjects.ground, &subjects.walls, &subjects.bombs}) lighting_.casters().addChild(caster);
-  // Where quality is fast the shadows of bodies are formulas.
-  if (quality == Quality::fine) lighting_.casters().addChild(&subjects.bodies);
+  // Where quality is fast the shadows of balls are formulas.
+  lighting_.casters().addChild(quality == Quality::fine ? &subjects.bodies : &subjects.solids);
   root_->addChild(&lighting_.shadow_root());
 
   // Ground and walls are seen from outside only: from inside they would flicker along ridges and far edges.

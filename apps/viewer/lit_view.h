@@ -13,6 +13,7 @@ struct Subjects {
   osg::Group& ground;
   osg::Group& walls;
   osg::Group& bodies;
+  osg::Group& solids;  ///< those bodies that are no balls
   osg::Group& bombs;
 };
 

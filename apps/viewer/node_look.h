@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "divot_osg/world_node.h"
+#include "viewer/body_node.h"
 #include "viewer/snapshot.h"
 #include "viewer/terrain_node.h"
 
@@ -30,6 +31,6 @@ std::unique_ptr<NodeStyle> make_application_style(TerrainNode& terrain, osg::Gro
                                                   const WorldNodeOptions& options);
 
 /// With this library's shaders, sun and shadows; the sky is the application's.
-std::unique_ptr<NodeStyle> make_divot_style(TerrainNode& terrain, osg::Group& bodies);
+std::unique_ptr<NodeStyle> make_divot_style(TerrainNode& terrain, BodyNode& bodies);
 
 }  // namespace divot::viewer

@@ -90,9 +90,10 @@ class ApplicationStyle : public NodeStyle {
   // Chunks count their changes; only those that changed are coloured again.
   static void color(osg::Geometry& chunk, const Tones& tones, float deep, Seen& seen) {
     const auto& sinkage = static_cast<const osg::Vec2Array&>(*chunk.getVertexAttribArray(kSinkageAttribute));
-    if (seen.sinkage == &sinkage && seen.version == sinkage.getModifiedCount()) return;
-    seen = {&sinkage, sinkage.getModifiedCount()};
     auto* colors = static_cast<osg::Vec4ubArray*>(chunk.getColorArray());
+    const bool is_colored = colors != nullptr && seen.sinkage == &sinkage;
+    if (is_colored && seen.version == sinkage.getModifiedCount()) return;
+    seen = {&sinkage, sinkage.getModifiedCount()};
     if (colors == nullptr) {
       colors = new osg::Vec4ubArray(osg::Array::BIND_PER_VERTEX, static_cast<unsigned>(sinkage.size()));
       colors->setNormalize(true);

@@ -25,8 +25,8 @@ struct ViewInverse : osg::NodeCallback {
 
 class DivotStyle : public NodeStyle {
  public:
-  DivotStyle(TerrainNode& terrain, osg::Group& bodies)
-      : view_({terrain.ground(), *walls_, bodies, *bombs_}, Sun{}, Quality::fine) {
+  DivotStyle(TerrainNode& terrain, BodyNode& bodies)
+      : view_({terrain.ground(), *walls_, bodies.root(), bodies.solids(), *bombs_}, Sun{}, Quality::fine) {
     // The last child of a lit view is its sky.
     osg::Group& root = view_.root();
     root.removeChild(root.getNumChildren() - 1);
@@ -76,7 +76,7 @@ class DivotStyle : public NodeStyle {
 
 }  // namespace
 
-std::unique_ptr<NodeStyle> make_divot_style(TerrainNode& terrain, osg::Group& bodies) {
+std::unique_ptr<NodeStyle> make_divot_style(TerrainNode& terrain, BodyNode& bodies) {
   return std::make_unique<DivotStyle>(terrain, bodies);
 }
 

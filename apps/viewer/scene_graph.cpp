@@ -1,5 +1,6 @@
 #include "viewer/scene_graph.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -25,8 +26,8 @@ SceneGraph::SceneGraph(const Sun& sun, const Look& look)
       bodies_(make_sphere()),
       line_bodies_(make_line_sphere()),
       bombs_(make_sphere()),
-      fine_({terrain_.ground(), terrain_.walls(), bodies_.root(), bombs_.root()}, sun, Quality::fine),
-      fast_({terrain_.ground(), terrain_.walls(), bodies_.root(), bombs_.root()}, sun, Quality::fast),
+      fine_({terrain_.ground(), terrain_.walls(), bodies_.root(), bodies_.solids(), bombs_.root()}, sun, Quality::fine),
+      fast_({terrain_.ground(), terrain_.walls(), bodies_.root(), bodies_.solids(), bombs_.root()}, sun, Quality::fast),
       height_range_(new osg::Uniform("height_range", osg::Vec2())),
       detail_wave_(new osg::Uniform("detail_wave", 1.0f)),
       sinkage_scale_(new osg::Uniform("sinkage_scale", 1.0f)),
@@ -34,7 +35,8 @@ SceneGraph::SceneGraph(const Sun& sun, const Look& look)
       color_by_(new osg::Uniform("color_by", 0)),
       ramp_(new osg::Uniform(osg::Uniform::FLOAT_VEC3, "ramp", kScaleStops)),
       ramp_range_(new osg::Uniform("ramp_range", osg::Vec2(0, 1))) {
-  lines_ = make_line_view({terrain_.mesh(), terrain_.walls(), line_bodies_.root(), bombs_.root()}, *ink_cell_);
+  lines_ = make_line_view(
+      {terrain_.mesh(), terrain_.walls(), line_bodies_.root(), line_bodies_.solids(), bombs_.root()}, *ink_cell_);
   for (const auto& uniform : {height_range_, detail_wave_, sinkage_scale_, color_by_, ramp_, ramp_range_}) {
     root_->getOrCreateStateSet()->addUniform(uniform);
   }
@@ -79,7 +81,9 @@ void SceneGraph::update(const Snapshot& snapshot) {
   if (look_.particles) particles_.update(snapshot.particles, surface.spacing);
   if (look_.effects) explosions_.update(surface.origin, snapshot.bombs, snapshot.time, eye_, look_.quality);
   lit().lighting().set_occluders(surface.origin, snapshot.bodies);
-  renew_shadows(!snapshot.dirty.empty());
+  const bool rolls = std::any_of(snapshot.bodies.begin(), snapshot.bodies.end(),
+                                 [](const BodyView& b) { return !is_ball(b) && b.velocity != Vec3d(); });
+  renew_shadows(rolls || !snapshot.dirty.empty());
 }
 
 void SceneGraph::show_scale(const Snapshot& snapshot) {

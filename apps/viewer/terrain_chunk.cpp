@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "divot/ids.h"
 #include "viewer/color_scale.h"
@@ -55,7 +56,8 @@ TerrainChunk::TerrainChunk(const SurfaceView& surface, std::span<const std::uint
                            std::span<const std::uint32_t> fringe, float base)
     : own_count_(own.size()), base_(base) {
   index_vertices(surface, own, fringe);
-  build_parts(surface);
+  for (const std::uint32_t vertex : vertices_) materials_.push_back(surface.materials[vertex]);
+  build_parts();
   border_ = border_edges(corners_, own_count_, vertices_.size());
   if (!border_.empty()) build_wall();
 }
@@ -79,10 +81,10 @@ void TerrainChunk::index_vertices(const SurfaceView& surface, std::span<const st
 
 // Sorts the own triangles by material. A corner alone in its material is cut off halfway along its edges; where all
 // three differ they meet in the middle. Edges between equal corners stay whole, as the triangle beyond them may be.
-std::map<std::uint8_t, std::vector<std::uint32_t>> TerrainChunk::split(const SurfaceView& surface) {
+std::map<std::uint8_t, std::vector<std::uint32_t>> TerrainChunk::split() {
   std::map<std::uint8_t, std::vector<std::uint32_t>> lists;
   std::map<Cut, std::uint32_t> made;
-  const auto material = [&](std::uint32_t local) { return surface.materials[vertices_[local]]; };
+  const auto material = [&](std::uint32_t local) { return materials_[local]; };
   const auto add = [&](std::uint32_t of, std::initializer_list<std::uint32_t> corners) {
     auto& list = lists[material(of)];
     list.insert(list.end(), corners);
@@ -110,15 +112,30 @@ std::map<std::uint8_t, std::vector<std::uint32_t>> TerrainChunk::split(const Sur
   return lists;
 }
 
-void TerrainChunk::build_parts(const SurfaceView& surface) {
-  const auto lists = split(surface);
+bool TerrainChunk::cut_again(const SurfaceView& surface) {
+  bool changed = false;
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    const std::uint8_t now = surface.materials[vertices_[i]];
+    changed |= std::exchange(materials_[i], now) != now;
+  }
+  if (!changed) return false;
+  cuts_.clear();
+  parts_.clear();
+  awake_.clear();
+  build_parts();
+  return true;
+}
+
+void TerrainChunk::build_parts() {
+  const auto lists = split();
   const auto count = static_cast<unsigned>(vertices_.size() + cuts_.size());
   positions_ = new osg::Vec3Array(count);
   normals_ = new osg::Vec3Array(count);
   sinkage_ = new osg::Vec2Array(count);
   marks_ = new osg::Vec4ubArray(count);
+  index_count_ = 0;
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    (*marks_)[i].set(0, static_cast<unsigned char>(surface.materials[vertices_[i]] % kScaleStops), 0, 0);
+    (*marks_)[i].set(0, static_cast<unsigned char>(materials_[i] % kScaleStops), 0, 0);
   }
   const auto geometry_of = [&](std::span<const std::uint32_t> corners) {
     osg::ref_ptr<osg::Geometry> geometry = make_geometry(*positions_, *normals_, *sinkage_);

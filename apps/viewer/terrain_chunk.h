@@ -48,6 +48,10 @@ class TerrainChunk {
   /// [O(ranges within its ids * log vertices)]
   bool touches(std::span<const DirtyRange> dirty) const;
 
+  /// Cuts the triangles again where vertices have become another material, as a road does that breaks: parts() and
+  /// mesh() are others then, without marks, and want a refresh(). Returns false when no vertex has. [O(vertices)]
+  bool cut_again(const SurfaceView& surface);
+
   /// Copies positions and sinkage, recomputes normals and marks them for upload. Returns how many bytes will be sent.
   /// [O(vertices + triangles)]
   std::size_t refresh(const SurfaceView& surface, const Sinkage& sinkage);
@@ -79,8 +83,8 @@ class TerrainChunk {
 
   void index_vertices(const SurfaceView& surface, std::span<const std::uint32_t> own,
                       std::span<const std::uint32_t> fringe);
-  std::map<std::uint8_t, std::vector<std::uint32_t>> split(const SurfaceView& surface);
-  void build_parts(const SurfaceView& surface);
+  std::map<std::uint8_t, std::vector<std::uint32_t>> split();
+  void build_parts();
   std::uint32_t cut_point(std::map<Cut, std::uint32_t>& made, Cut cut);
   void refresh_cuts();
   void build_wall();
@@ -89,6 +93,7 @@ class TerrainChunk {
   void refresh_wall();
 
   std::vector<std::uint32_t> vertices_;  // [local vertex] id, ascending
+  std::vector<std::uint8_t> materials_;  // [local vertex of the surface] as the triangles are cut by
   std::vector<std::uint32_t> corners_;   // [3 * triangle + corner] local vertex; own triangles first
   std::size_t own_count_;                // triangles that are drawn
   std::size_t index_count_ = 0;          // of all geometries of the ground

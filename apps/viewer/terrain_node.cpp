@@ -102,10 +102,32 @@ void TerrainNode::update(const SurfaceView& surface, std::span<const DirtyRange>
   if (surface.positions.size() != vertex_count_ || surface.triangles.size() != corner_count_) {
     return rebuild(surface, sinkage);
   }
+  bool any_cut = false;
   for (TerrainChunk& chunk : chunks_) {
     if (!chunk.touches(dirty)) continue;
-    uploaded_bytes_ += chunk.refresh(surface, sinkage);
+    const bool cut = chunk.cut_again(surface);
+    const std::size_t moved = chunk.refresh(surface, sinkage);
+    uploaded_bytes_ += cut ? chunk.size_bytes() : moved;
     largest_sinkage_ = std::max(largest_sinkage_, chunk.largest_sinkage());
+    any_cut |= cut;
+  }
+  if (any_cut) list_parts();
+}
+
+// Hangs what the chunks draw below the groups that are drawn. [O(chunks)]
+void TerrainNode::list_parts() {
+  ground_->removeChildren(0, ground_->getNumChildren());
+  ground_materials_.clear();
+  mesh_->removeChildren(0, mesh_->getNumChildren());
+  walls_->removeChildren(0, walls_->getNumChildren());
+  for (TerrainChunk& chunk : chunks_) {
+    for (const ChunkPart& part : chunk.parts()) {
+      if (part.material < looks_.size()) part.ground->setStateSet(looks_[part.material]);
+      ground_->addChild(part.ground);
+      ground_materials_.push_back(part.material);
+    }
+    mesh_->addChild(&chunk.mesh());
+    if (chunk.wall()) walls_->addChild(chunk.wall());
   }
 }
 
@@ -123,10 +145,6 @@ void TerrainNode::rebuild(const SurfaceView& surface, const Sinkage& sinkage) {
   measure(surface, sinkage);
   largest_sinkage_ = 0;
   chunks_.clear();
-  ground_->removeChildren(0, ground_->getNumChildren());
-  ground_materials_.clear();
-  mesh_->removeChildren(0, mesh_->getNumChildren());
-  walls_->removeChildren(0, walls_->getNumChildren());
   vertex_count_ = surface.positions.size();
   corner_count_ = surface.triangles.size();
 
@@ -145,14 +163,8 @@ void TerrainNode::rebuild(const SurfaceView& surface, const Sinkage& sinkage) {
     chunk.refresh(surface, sinkage);
     largest_sinkage_ = std::max(largest_sinkage_, chunk.largest_sinkage());
     uploaded_bytes_ += chunk.size_bytes();
-    for (const ChunkPart& part : chunk.parts()) {
-      if (part.material < looks_.size()) part.ground->setStateSet(looks_[part.material]);
-      ground_->addChild(part.ground);
-      ground_materials_.push_back(part.material);
-    }
-    mesh_->addChild(&chunk.mesh());
-    if (chunk.wall()) walls_->addChild(chunk.wall());
   }
+  list_parts();
 }
 
 void TerrainNode::measure(const SurfaceView& surface, const Sinkage& sinkage) {

@@ -15,8 +15,8 @@ class TerrainNode {
   TerrainNode();
 
   /// Takes over the ground. Chunks are made when it is seen first and again whenever it has other triangles than
-  /// before; otherwise only those that `dirty` (ascending, disjoint) touches are sent again. [O(faces) the first time,
-  /// then O(chunks + dirty chunks)]
+  /// before; otherwise only those that `dirty` (ascending, disjoint) touches are sent again, and cut again where
+  /// materials in them have changed. [O(faces) the first time, then O(chunks + dirty chunks)]
   void update(const SurfaceView& surface, std::span<const DirtyRange> dirty, const Sinkage& sinkage);
 
   /// Marks which vertices are awake particles; ids, ascending. [O(chunks + awake)]
@@ -51,6 +51,7 @@ class TerrainNode {
 
  private:
   void rebuild(const SurfaceView& surface, const Sinkage& sinkage);
+  void list_parts();
   void measure(const SurfaceView& surface, const Sinkage& sinkage);
 
   osg::ref_ptr<osg::Group> ground_, mesh_, walls_;

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <set>
 #include <stdexcept>
@@ -242,6 +243,88 @@ TEST(Render, BallShowsThatItRolls) {
   const Image before = shown.draw();
   shown.bodies[0].orientation = {.x = 0, .y = std::sin(0.3), .z = 0, .w = std::cos(0.3)};
   EXPECT_GT(differing(before, shown.draw()), 100);
+}
+
+class RenderShapes : public testing::TestWithParam<Quality> {
+ protected:
+  // `bodies` above flat ground, always seen from the same place.
+  Image draw(const std::vector<BodyView>& bodies) const {
+    auto renderer = Renderer::create({.width = 320, .height = 180, .quality = GetParam(), .camera = kCamera}).value();
+    renderer.update(ground_.view(), {}, bodies, {}, {}, 0);
+    return renderer.pixels().value();
+  }
+  BodyView body(const Shape& shape, double radius) const {
+    BodyView body;
+    body.radius = radius;
+    body.position = ground_.place(0, 0, 60);
+    body.shape = std::make_shared<const Shape>(shape);
+    return body;
+  }
+  // Pixels that differ within 4 x 4 about a place in the picture.
+  int differing_at(const Image& a, const Image& b, double x, double y, double z) const {
+    const auto [column, row] = project(kCamera, ground_.place(x, y, z), a.width, a.height);
+    const int c = static_cast<int>(column), r = static_cast<int>(row);
+    return differing(a, b, c - 2, r - 2, c + 2, r + 2);
+  }
+
+  const TestSurface ground_ = paper_ground();
+  const Camera kCamera = {.eye = ground_.place(150, -500, 300), .target = ground_.place(0, 0, 30)};
+};
+
+TEST_P(RenderShapes, BoxesAreLongAndThrowShadows) {
+  const Image bare = draw({}), box = draw({body(Box{{160, 40, 40}}, 85)});
+  for (const double x : {-70.0, 0.0, 70.0}) EXPECT_EQ(differing_at(bare, box, x, 0, 60), 16) << x;
+  EXPECT_EQ(differing_at(bare, box, 0, 0, 110), 0) << "a ball would be as high as it is long";
+  // Away from the sun, as far as its height over the tangent of the sun's elevation.
+  const double away = 60 / std::tan(29 * std::numbers::pi / 180), azimuth = 68 * std::numbers::pi / 180;
+  EXPECT_EQ(differing_at(bare, box, -away * std::sin(azimuth), -away * std::cos(azimuth), 0), 16);
+}
+
+TEST_P(RenderShapes, WheelsTurn) {
+  BodyView wheel = body(Cylinder{.radius = 50, .length = 30}, 53);
+  const Image bare = draw({}), before = draw({wheel});
+  EXPECT_EQ(differing_at(bare, before, 0, 0, 60), 16);
+  EXPECT_EQ(differing_at(bare, before, 40, 0, 60), 16);
+  wheel.orientation = {.x = 0, .y = std::sin(0.1), .z = 0, .w = std::cos(0.1)};
+  EXPECT_GT(differing(before, draw({wheel})), 30);
+}
+
+TEST_P(RenderShapes, HullsAndCompoundsHaveTheirPartsInPlace) {
+  const Hull hull{.points = {{40, 0, -20}, {-20, 35, -20}, {-20, -35, -20}, {0, 0, 50}},
+                  .triangles = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}};
+  const Image bare = draw({});
+  const Image alone = draw({body(hull, 60)});
+  EXPECT_EQ(differing_at(bare, alone, 0, 0, 50), 16);
+  EXPECT_EQ(differing_at(bare, alone, 30, 0, 95), 0) << "beside the tip";
+  const Image pair =
+      draw({body(Compound{{{.shape = hull}, {.shape = Capsule{15, 60}, .position = {110, 0, 0}}}}, 130)});
+  EXPECT_EQ(differing_at(bare, pair, 0, 0, 50), 16);
+  EXPECT_EQ(differing_at(bare, pair, 110, 0, 60), 16);
+}
+
+INSTANTIATE_TEST_SUITE_P(Qualities, RenderShapes, testing::Values(Quality::fast, Quality::fine));
+
+// A bomb breaks a road: what was followed by dirty ranges looks as what is seen for the first time.
+TEST(Render, BrokenRoadsShowWhatLiesBelow) {
+  Scene scene;
+  Material road = *find_preset("asphalt");
+  road.name = "road", road.over = "clay_wet", road.over_thickness = 0.1;
+  scene.materials = {road};
+  scene.terrain = {.shape = GridTerrain{.columns = 81, .rows = 81, .spacing = 0.4}, .material = "road"};
+  scene.bombs = {{.time = 0.1, .position = {}, .above_ground = true, .yield = 1}};
+  World world = World::create(scene, std::make_shared<const Jobs>(1)).value();
+  RenderOptions options{.width = 320, .height = 180, .color = ColorBy::material, .effects = false};
+  auto followed = Renderer::create(options).value();
+  followed.update(world);
+  options.camera = followed.camera();
+  const Image whole = followed.pixels().value();
+  while (world.time() < 1) world.step();
+  followed.update(world);
+  const Image broken = followed.pixels().value();
+  auto fresh = Renderer::create(options).value();
+  fresh.update(world);
+  EXPECT_LT(differing(broken, fresh.pixels().value()), 320 * 180 / 100);
+  EXPECT_GT(differing(whole, broken), 320 * 180 / 10);
 }
 
 TEST(Render, BombIsSeenUntilItGoesOff) {

@@ -17,7 +17,7 @@ namespace divot::viewer {
 
 struct WorldNode::Impl {
   Impl(World taken, const WorldNodeOptions& asked) : world(std::move(taken)), options(asked), balls(make_sphere()) {
-    style = options.look == NodeLook::divot ? make_divot_style(terrain, balls.root())
+    style = options.look == NodeLook::divot ? make_divot_style(terrain, balls)
                                             : make_application_style(terrain, balls.root(), options);
     terrain.set_looks(style->looks(world.materials(), world.scene().folder));
   }
@@ -40,7 +40,7 @@ void WorldNode::Impl::place_models(const Snapshot& snapshot) {
     const Vec3d& p = view.position;
     const Quat& q = view.orientation;
     node->setMatrix(osg::Matrixd::rotate(osg::Quat(q.x, q.y, q.z, q.w)) * osg::Matrixd::translate(p.x, p.y, p.z));
-    balls.root().getChild(body)->setNodeMask(0);
+    balls.hide(body);
   }
 }
 

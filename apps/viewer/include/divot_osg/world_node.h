@@ -51,7 +51,7 @@ class WorldNode : public osg::Group {
   void refresh();
 
   /// The transform that follows a body, with its centre at the origin and its axes as they were at the start: what is
-  /// put below it moves as the body does, in metres. From now on the body is not drawn as a ball. `body`: of this
+  /// put below it moves as the body does, in metres. From now on the body is not drawn in its shape. `body`: of this
   /// world.
   osg::MatrixTransform& body_node(BodyId body);
 
