@@ -17,7 +17,8 @@ constexpr double kFillWhole = 0.96;   // share of the picture that the whole ter
 constexpr double kFillPart = 0.85;    // and what is framed on terrain that goes on around it
 constexpr double kBodyMargin = 1.15;  // of the radius around a body
 constexpr double kBlock = 0.045;      // thickness of the terrain's block over its extent
-// What is wider than this share of the terrain shows all of it; bodies need room to go somewhere.
+// What is wider than this share of the terrain shows all of it. Bodies alone need room to go somewhere, while bombs
+// tell where something will happen.
 constexpr double kWholeTerrain = 0.5, kWholeTerrainBodies = 0.15;
 
 // Reach of a crater with its lip and blanket: about one apparent width, which is 7.13 m for 1 t by eq. 10.
@@ -126,8 +127,8 @@ double block_base(const Region& terrain) { return terrain.min.z - kBlock * terra
 
 namespace {
 
-bool shows_whole_terrain(const Region& events, const Region& terrain, bool has_bodies) {
-  const double share = has_bodies ? kWholeTerrainBodies : kWholeTerrain;
+bool shows_whole_terrain(const Region& events, const Region& terrain, bool only_bodies) {
+  const double share = only_bodies ? kWholeTerrainBodies : kWholeTerrain;
   return !(events.extent() > 0) || events.extent() > share * terrain.extent();
 }
 
@@ -149,7 +150,7 @@ Framing frame(const SurfaceView& surface, std::span<const BodyView> bodies, std:
   Framing framing;
   framing.region = empty_region();
   for (const Subject& s : subjects) include(framing.region, s.center, s.radius);
-  const bool whole = shows_whole_terrain(framing.region, terrain, !bodies.empty());
+  const bool whole = shows_whole_terrain(framing.region, terrain, bombs.empty());
   if (whole) {
     framing.region = terrain;
     framing.region.min.z = block_base(terrain);

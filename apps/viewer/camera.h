@@ -34,8 +34,8 @@ struct Framing {
 };
 
 /// A three-quarter view from above on bombs with the ground they will move, and on bodies; or on all of the terrain
-/// when these take up half of it anyway, a seventh where bodies are among them, or when there are none. `aspect`: width
-/// over height of the picture. [O(faces + bodies + bombs)]
+/// when these take up half of it anyway, a seventh of it where there are no bombs, or when there are none. `aspect`:
+/// width over height of the picture. [O(faces + bodies + bombs)]
 Framing frame(const SurfaceView& surface, std::span<const BodyView> bodies, std::span<const BombView> bombs,
               double aspect = 16.0 / 9.0);
 
