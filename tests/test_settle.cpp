@@ -11,11 +11,13 @@ Sheet small_sheet() { return test::make_sheet({.columns = 5, .rows = 5, .spacing
 
 struct Settle {
   std::vector<state::Blast> blasts;
+  std::vector<state::Body> bodies = std::vector<state::Body>(1);
   Stillness stillness{0.01f, 0, 3};
   Moved moved;
   Scratch scratch;
   void operator()(Sheet& s, double time = 0) {
-    update(s.particles, s.soil, s.surface, blasts, s.media, stillness, {time, 1.0 / 60, 9.81}, moved, scratch, Jobs(1));
+    update(s.particles, s.soil, s.surface, blasts, bodies, s.media, stillness, {time, 1.0 / 60, 9.81}, moved, scratch,
+           Jobs(1));
   }
 };
 

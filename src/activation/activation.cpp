@@ -61,6 +61,8 @@ void append_row(state::Particles& to, const state::Particles& from, const state:
   to.mass.push_back(media[surface.material[vertex]].areal_mass * soil.area[column]);
   to.flow_rate.push_back(moves_on ? from.flow_rate[old] : 0);
   to.held_pull.push_back(moves_on ? from.held_pull[old] : 0);
+  to.yielded.push_back(0);
+  to.carrier.push_back(moves_on ? from.carrier[old] : kNone);
   to.hold.push_back(anchor ? Hold::anchor : moves_on && from.hold[old] == Hold::carried ? Hold::carried : Hold::free);
   to.still_steps.push_back(moves_on ? from.still_steps[old] : 0);
 }

@@ -61,6 +61,8 @@ void release(const Scratch::PerBody& scratch, state::Particles& p, state::Soil& 
     const std::uint32_t column = surface.column[press.vertex], i = soil.particle[column];
     if (i == kNone || p.hold[i] != Hold::carried) continue;
     p.hold[i] = Hold::free;
+    p.carrier[i] = kNone;
+    p.yielded[i] = 0;
     p.set_velocity(i, {});
     if (!pressed_before(scratch.presses, press.vertex)) soil.shear[column] = {};
   }
@@ -73,18 +75,24 @@ Vec3 keep_shape(Vec3 place, const Vec3& original, float spacing) {
   return place;
 }
 
-void press(const Press& press, state::Particles& p, state::Soil& soil, const state::Surface& surface, float dt) {
+void press(const Press& press, std::uint32_t body, state::Particles& p, state::Soil& soil,
+           const state::Surface& surface, float dt) {
   const std::uint32_t column = surface.column[press.vertex], i = soil.particle[column];
   const float fresh = soil.fresh_height(column);
   const Vec3 place = keep_shape(press.position, soil.original[column], surface.spacing);
   // Where two bodies press one vertex, the deeper one carries it.
   const bool shared = p.hold[i] == Hold::carried;
-  if (!shared || place.z < p.z[i] + dt * p.vz[i]) p.set_velocity(i, (1 / dt) * (place - p.position(i)));
+  if (!shared || place.z < p.z[i] + dt * p.vz[i]) {
+    p.set_velocity(i, (1 / dt) * (place - p.position(i)));
+    p.carrier[i] = body;
+  }
   p.hold[i] = Hold::carried;
   p.flow_rate[i] = 0;
   p.still_steps[i] = 0;
   soil.shear[column] = press.shear;
-  soil.plastic[column] = std::max(soil.plastic[column], press.plastic);
+  const float yields = std::max(0.0f, press.plastic - soil.plastic[column]);
+  p.yielded[i] = shared ? p.yielded[i] + yields : yields;
+  soil.plastic[column] += yields;
   soil.rest[column] = {place.x, place.y, fresh - soil.plastic[column]};
 }
 
@@ -124,7 +132,8 @@ void carry(std::span<state::Body> bodies, state::Particles& particles, state::So
            double dt, const Scratch& scratch) {
   for (std::size_t i = 0; i < bodies.size(); ++i) release(scratch.bodies[i], particles, soil, surface);
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (const Press& one : scratch.bodies[i].presses) press(one, particles, soil, surface, static_cast<float>(dt));
+    for (const Press& one : scratch.bodies[i].presses)
+      press(one, static_cast<std::uint32_t>(i), particles, soil, surface, static_cast<float>(dt));
 }
 
 }  // namespace divot::contact

@@ -71,13 +71,14 @@ void hand_over(const state::Particles& p, std::size_t i, state::Soil& soil) {
 }  // namespace
 
 void update(state::Particles& p, state::Soil& soil, state::Surface& surface, std::vector<state::Blast>& blasts,
-            std::span<const laws::Medium> media, const Stillness& stillness, const Step& step, Moved& moved,
-            Scratch& scratch, const Jobs& jobs) {
+            std::span<const state::Body> bodies, std::span<const laws::Medium> media, const Stillness& stillness,
+            const Step& step, Moved& moved, Scratch& scratch, const Jobs& jobs) {
   moved.vertices.clear();
   moved.distance = moved.free_distance = 0;
   Ground ground{p, soil, surface, moved};
   move_surface(stillness, ground, scratch.lost);
   throw_and_land(blasts, scratch.lost, ground);
+  flow_aside(bodies, media, ground, scratch.flow);
 
   soil.restless.insert(soil.restless.end(), moved.vertices.begin(), moved.vertices.end());
   for (std::size_t i = 0; i < p.size(); ++i) {

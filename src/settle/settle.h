@@ -6,16 +6,18 @@
 
 #include "divot/jobs.h"
 #include "laws/medium.h"
+#include "settle/flow_aside.h"
 #include "settle/ground.h"
 #include "settle/slump.h"
 #include "state/blasts.h"
+#include "state/bodies.h"
 #include "state/particles.h"
 #include "state/soil.h"
 #include "state/surface.h"
 
-// stage     settle: particles hand their place to the surface, soil that was thrown lands, what is still goes to sleep,
-//           what is too steep slides
-// reads     particles, blasts
+// stage     settle: particles hand their place to the surface, soil that was thrown lands, soil flows out from under
+//           bodies, what is still goes to sleep, what is too steep slides
+// reads     particles, blasts, bodies
 // writes    surface, soil, sleep counters
 // parallel  over faces and vertices of what slides; the rest is one pass over the awake, bound by memory
 // sums      volumes over a vertex's faces in their order; thrown volume over a blast's columns in order
@@ -31,6 +33,7 @@ struct Stillness {
 /// Arrays the stage needs; they grow and stay.
 struct Scratch {
   std::vector<double> lost;  ///< [particle] m^3 that vanished below it in this step
+  FlowScratch flow;
   SlumpScratch slump;
 };
 
@@ -44,7 +47,7 @@ struct Step {
 /// Moves the surface with its particles and keeps the books of soil. Those that go to sleep give up their elastic rest:
 /// where they are is where the ground now stands.
 void update(state::Particles& particles, state::Soil& soil, state::Surface& surface, std::vector<state::Blast>& blasts,
-            std::span<const laws::Medium> media, const Stillness& stillness, const Step& step, Moved& moved,
-            Scratch& scratch, const Jobs& jobs);
+            std::span<const state::Body> bodies, std::span<const laws::Medium> media, const Stillness& stillness,
+            const Step& step, Moved& moved, Scratch& scratch, const Jobs& jobs);
 
 }  // namespace divot::settle

@@ -22,6 +22,8 @@ struct Particles {
   std::vector<float> mass;                    ///< [particle] kg; activation/
   std::vector<float> flow_rate;  ///< [particle] 1/s, drag of soil that a blast has made flow, 0 otherwise; events/
   std::vector<float> held_pull;  ///< [particle] N, vertical cohesion on it when last evaluated; forces/
+  std::vector<float> yielded;  ///< [particle] m it was pressed for good in this step, where a body carries it; contact/
+  std::vector<std::uint32_t> carrier;      ///< [particle] index of that body, else kNone; contact/
   std::vector<std::uint8_t> material;      ///< [particle] ; activation/
   std::vector<Hold> hold;                  ///< [particle] ; activation/, contact/
   std::vector<std::uint16_t> still_steps;  ///< [particle] steps it has been still; settle/
@@ -36,7 +38,7 @@ struct Particles {
   template <class F>
   void for_each_array(F f) {
     f(vertex), f(column), f(x), f(y), f(z), f(vx), f(vy), f(vz), f(fx), f(fy), f(fz), f(mass), f(flow_rate),
-        f(held_pull), f(material), f(hold), f(still_steps);
+        f(held_pull), f(yielded), f(carrier), f(material), f(hold), f(still_steps);
   }
 };
 

@@ -191,7 +191,7 @@ void World::Impl::settle_ground() {
         static_cast<float>(speed), static_cast<float>(speed * scene.dt),
         static_cast<std::uint16_t>(std::clamp(std::ceil(kStillTime / scene.dt), 2.0, 60000.0))};
     const settle::Step step{time() + scene.dt, scene.dt, -scene.gravity.z};
-    settle::update(particles, soil, surface, blasts, media, stillness, step, moved, settle_scratch, *jobs);
+    settle::update(particles, soil, surface, blasts, bodies, media, stillness, step, moved, settle_scratch, *jobs);
     std::uint32_t last = kNone;
     for (const std::uint32_t vertex : moved.vertices) {
       if (vertex / kDirtyChunk == last) continue;
