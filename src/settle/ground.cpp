@@ -31,9 +31,11 @@ float bring(Ground& ground, std::uint32_t column, double volume) {
   soil.gained[column] += volume;
   soil.compacted[column] += volume - rose;
   soil.rest[column].z += height;
-  soil.loose[column] = std::max(0.0f, soil.loose[column] + height);
-  // Bekker's curve goes on where it was left once what lies on top is pressed away.
-  if (height > 0) soil.plastic[column] = std::max(0.0f, soil.plastic[column] - height);
+  const float loose = std::max(0.0f, soil.loose[column] + height), more = loose - soil.loose[column];
+  soil.loose[column] = loose;
+  // Loose soil bears nothing: Bekker's curve goes on where it was left once what lies on top is pressed away.
+  float& plastic = soil.plastic[column];
+  plastic = more > 0 ? plastic - more : std::max(plastic, std::min(0.0f, plastic - more));
   if (i != kNone) ground.particles.z[i] += height;
   ground.moved.vertices.push_back(vertex);
   return height;

@@ -64,7 +64,7 @@ void sort_unique(std::vector<std::uint32_t>& list) {
 // For good: what is elastic is given up.
 void hand_over(const state::Particles& p, std::size_t i, state::Soil& soil) {
   const std::uint32_t column = p.column[i];
-  soil.plastic[column] = std::max(0.0f, soil.fresh_height(column) - p.z[i]);
+  soil.plastic[column] = soil.fresh_height(column) - p.z[i];
   soil.rest[column] = p.position(i);
 }
 

@@ -16,9 +16,10 @@ struct Soil {
   std::vector<std::uint32_t> particle;  ///< [column] row in Particles while awake, else kNone; activation/
   std::vector<Vec3> original;           ///< [column] where the vertex was before the first touch, m
   std::vector<Vec3> rest;               ///< [column] where it stands without load, m; forces/, contact/, settle/
-  std::vector<float> plastic;  ///< [column] sinkage that load has made permanent, m: where Bekker's curve is re-entered
-  std::vector<Vec3> shear;     ///< [column] shear displacement j under the body that touches it, m; contact/
-  std::vector<float> area;     ///< [column] horizontal area it stands for, m^2
+  std::vector<float> plastic;           ///< [column] sinkage that load has made permanent, m: where Bekker's curve is
+                                        ///< re-entered; negative: loose soil on top
+  std::vector<Vec3> shear;              ///< [column] shear displacement j under the body that touches it, m; contact/
+  std::vector<float> area;              ///< [column] horizontal area it stands for, m^2
 
   // The books of each column, in m^3 at the density of undisturbed soil. What the surface sinks in all is what all
   // columns were compacted by, since what one gains another gives.
