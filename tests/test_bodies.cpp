@@ -325,8 +325,8 @@ TEST(BodiesTruck, RestsAsDeepAsAWheelWithAQuarterOfItsWeight) {
 }
 
 TEST(BodiesTruck, DrivesAndSteers) {
-  Scene scene = truck("asphalt", 0.1, 1.0 / 60);
-  scene.terrain.shape = GridTerrain{.columns = 251, .rows = 161, .spacing = 0.1};
+  Scene scene = truck("asphalt", 0.05, 1.0 / 60);
+  scene.terrain.shape = GridTerrain{.columns = 501, .rows = 321, .spacing = 0.05};
   for (Joint& joint : scene.joints) joint.motor_speed = 8, joint.motor_force = 300;
   for (const std::size_t front : {1, 3}) scene.joints[front].steering_deg = 8;
   World world = make_world(scene);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "laws/bekker.h"
 #include "laws/compaction.h"
 
 namespace divot::settle {
@@ -97,7 +98,7 @@ using Sectors = std::array<double, kSectors>;
 
 // What flows out from under the body by the side on which it comes out, m^3. Books of the columns it leaves are kept.
 double squeeze_out(const state::Body& body, const Patch& patch, std::span<const std::uint32_t> carried,
-                   std::span<const laws::Medium> media, Ground& ground, Sectors& volume) {
+                   std::span<const laws::Medium> media, const Step& step, Ground& ground, Sectors& volume) {
   const state::Particles& p = ground.particles;
   state::Soil& soil = ground.soil;
   double total = 0;
@@ -107,14 +108,18 @@ double squeeze_out(const state::Body& body, const Patch& patch, std::span<const 
   for (const std::uint32_t i : carried) {
     if (p.yielded[i] <= 0) continue;
     const std::uint32_t column = p.column[i];
+    const laws::Medium& medium = media[p.material[i]];
+    // The soil has failed where Bekker's curve has passed what it bears.
+    const double pressed = laws::bekker_pressure<double>(medium, soil.plastic[column], body.patch_width);
+    if (pressed < laws::bearing_capacity(medium, body.patch_width, step.gravity)) continue;
     const Vec3d arm = to_double(p.position(i)) - body.position;
     const Vec3d moves = body.velocity + cross(body.angular_velocity, arm);
-    const double across = std::hypot(moves.x, moves.y), speed = length(moves);
-    const double pushed = speed > 0 ? across / speed : 0;
+    // What the body comes down explains a part of the sinkage; it moved sideways over the rest.
+    const double pushed = 1 - std::min(1.0, std::max(0.0, -moves.z) * step.dt / p.yielded[i]);
 
     const double area = soil.area[column], elastic = std::max(0.0f, soil.rest[column].z - p.z[i]);
     const double lost = soil.compacted[column] / area - elastic;
-    const double limit = media[p.material[i]].compaction_limit * laws::kPressureBulb * body.patch_width * (1 - pushed);
+    const double limit = medium.compaction_limit * laws::kPressureBulb * body.patch_width * (1 - pushed);
     const double closed = laws::closed_pores(p.yielded[i], lost - p.yielded[i], limit);
     const double flows = std::clamp(p.yielded[i] - closed, 0.0, std::max(0.0, lost)) * area;
     if (flows <= 0) continue;
@@ -204,7 +209,7 @@ float lay_beside(Ground& ground, const Sectors& room, const Sectors& volume, con
 }
 
 void flow_from_under(const state::Body& body, std::span<const std::uint32_t> carried,
-                     std::span<const laws::Medium> media, Ground& ground, FlowScratch& scratch) {
+                     std::span<const laws::Medium> media, const Step& step, Ground& ground, FlowScratch& scratch) {
   const Patch patch = patch_of(ground, carried);
   const double reach = kBermWidth * body.patch_width + 1.5 * ground.surface.spacing;
   find_beside(ground, carried, reach, scratch);
@@ -216,7 +221,7 @@ void flow_from_under(const state::Body& body, std::span<const std::uint32_t> car
     room[low] += (1 - share) * b.weight, room[high] += share * b.weight;
   }
   if (std::all_of(room.begin(), room.end(), [](double r) { return r <= 0; })) return;
-  if (squeeze_out(body, patch, carried, media, ground, volume) <= 0) return;
+  if (squeeze_out(body, patch, carried, media, step, ground, volume) <= 0) return;
   move_to_open_sides(room, volume);
   const float rose = lay_beside(ground, room, volume, scratch);
   ground.moved.distance += rose, ground.moved.free_distance += rose;
@@ -238,14 +243,14 @@ void sort_by_body(const state::Particles& p, std::size_t body_count, FlowScratch
 
 }  // namespace
 
-void flow_aside(std::span<const state::Body> bodies, std::span<const laws::Medium> media, Ground& ground,
-                FlowScratch& scratch) {
+void flow_aside(std::span<const state::Body> bodies, std::span<const laws::Medium> media, const Step& step,
+                Ground& ground, FlowScratch& scratch) {
   sort_by_body(ground.particles, bodies.size(), scratch);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const std::span carried(scratch.carried.begin() + scratch.first[b], scratch.carried.begin() + scratch.first[b + 1]);
     const bool yields =
         std::any_of(carried.begin(), carried.end(), [&](std::uint32_t i) { return ground.particles.yielded[i] > 0; });
-    if (yields) flow_from_under(bodies[b], carried, media, ground, scratch);
+    if (yields) flow_from_under(bodies[b], carried, media, step, ground, scratch);
   }
 }
 

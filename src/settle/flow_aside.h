@@ -26,9 +26,9 @@ struct FlowScratch {
 };
 
 /// Soil that bodies have pressed beyond what its pores can give flows out from under them: forward where the body's
-/// underside moves over the ground, otherwise by the shortest way down the pressure, and lies loose beside the patch.
-/// [O(what bodies carry, and what lies beside it)]
-void flow_aside(std::span<const state::Body> bodies, std::span<const laws::Medium> media, Ground& ground,
-                FlowScratch& scratch);
+/// underside moves sideways over the ground in this step, otherwise by the shortest way down the pressure, and lies
+/// loose beside the patch. [O(what bodies carry, and what lies beside it)]
+void flow_aside(std::span<const state::Body> bodies, std::span<const laws::Medium> media, const Step& step,
+                Ground& ground, FlowScratch& scratch);
 
 }  // namespace divot::settle

@@ -9,6 +9,13 @@
 
 namespace divot::settle {
 
+/// The step that has just been made.
+struct Step {
+  double time = 0;     ///< s, at its end
+  double dt = 0;       ///< s
+  double gravity = 0;  ///< m/s^2, downward
+};
+
 /// What the surface did in this step.
 struct Moved {
   std::vector<std::uint32_t> vertices;  ///< that moved, ascending

@@ -64,7 +64,8 @@ void sort_unique(std::vector<std::uint32_t>& list) {
 // For good: what is elastic is given up.
 void hand_over(const state::Particles& p, std::size_t i, state::Soil& soil) {
   const std::uint32_t column = p.column[i];
-  soil.plastic[column] = soil.fresh_height(column) - p.z[i];
+  // Only loose soil bears nothing; ground that was pulled up stands as it is.
+  soil.plastic[column] = std::max(-soil.loose[column], soil.fresh_height(column) - p.z[i]);
   soil.rest[column] = p.position(i);
 }
 
@@ -78,7 +79,7 @@ void update(state::Particles& p, state::Soil& soil, state::Surface& surface, std
   Ground ground{p, soil, surface, moved};
   move_surface(stillness, ground, scratch.lost);
   throw_and_land(blasts, scratch.lost, ground);
-  flow_aside(bodies, media, ground, scratch.flow);
+  flow_aside(bodies, media, step, ground, scratch.flow);
 
   soil.restless.insert(soil.restless.end(), moved.vertices.begin(), moved.vertices.end());
   for (std::size_t i = 0; i < p.size(); ++i) {

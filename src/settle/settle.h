@@ -37,13 +37,6 @@ struct Scratch {
   SlumpScratch slump;
 };
 
-/// The step that has just been made.
-struct Step {
-  double time = 0;     ///< s, at its end
-  double dt = 0;       ///< s
-  double gravity = 0;  ///< m/s^2, downward
-};
-
 /// Moves the surface with its particles and keeps the books of soil. Those that go to sleep give up their elastic rest:
 /// where they are is where the ground now stands.
 void update(state::Particles& particles, state::Soil& soil, state::Surface& surface, std::vector<state::Blast>& blasts,
