@@ -40,7 +40,7 @@ struct Material {
   double restitution = 0.3;            ///< multiplied by the body's, [0, 1]
 
   // What becomes of soil that is pressed or thrown.
-  double density = 1600.0;         ///< kg/m^3 of undisturbed soil, > 0
+  double density = 0.084;          ///< kg/m^3 of undisturbed soil, > 0; the paper's 1 kg at 10.9 m, 0.1 m thick
   double compaction_limit = 0.3;   ///< largest share of its volume that the soil can lose by compaction, [0, 1)
   double repose_angle_deg = 45.0;  ///< slopes of loose soil at rest are no steeper, degrees, (0, 89]
 
