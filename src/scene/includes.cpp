@@ -117,7 +117,7 @@ void merge_materials(toml::table& to, toml::node& from) {
     to.insert(kMaterials, std::move(*source));
   } else if (toml::table* table = to.get_as<toml::table>(kMaterials)) {
     for (auto&& [key, value] : *source)
-      if (!table->contains(key)) value.visit([&](auto& node) { table->insert(key, std::move(node)); });
+      if (!table->contains(key)) value.visit([&, &key = key](auto& node) { table->insert(key, std::move(node)); });
   }
 }
 
