@@ -56,11 +56,6 @@ bool still_acts(const state::Blast& blast, const state::Particles& p, const stat
   });
 }
 
-void sort_unique(std::vector<std::uint32_t>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-}
-
 // For good: what is elastic is given up.
 void hand_over(const state::Particles& p, std::size_t i, state::Soil& soil) {
   const std::uint32_t column = p.column[i];
@@ -91,9 +86,9 @@ void update(state::Particles& p, state::Soil& soil, state::Surface& surface, std
     hand_over(p, i, soil);
     soil.restless.push_back(p.vertex[i]);
   }
-  sort_unique(soil.restless);
+  scratch.set.sort_unique(soil.restless);
   slump(ground, media, step.gravity, step.dt, scratch.slump, jobs);
-  sort_unique(moved.vertices);
+  scratch.set.sort_unique(moved.vertices);
   for (state::Blast& blast : blasts) blast.active = blast.active && still_acts(blast, p, soil, step.time);
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/id_set.h"
 #include "divot/jobs.h"
 #include "laws/medium.h"
 #include "settle/flow_aside.h"
@@ -34,6 +35,7 @@ struct Stillness {
 struct Scratch {
   std::vector<double> lost;  ///< [particle] m^3 that vanished below it in this step
   FlowScratch flow;
+  core::IdSet set;           ///< of vertices, empty between uses
   SlumpScratch slump;
 };
 

@@ -35,6 +35,7 @@ struct Corner {
 struct Site {
   const Ground& ground;
   std::span<const laws::Medium> media;
+  std::span<const double> stands;  // [medium] m
   double gravity;
 
   Corner corner(std::uint32_t vertex) const {
@@ -44,6 +45,13 @@ struct Site {
     return {vertex, now, to_double(ground.soil.original[column]), ground.soil.loose[column]};
   }
   const laws::Medium& medium(std::uint32_t vertex) const { return media[ground.surface.material[vertex]]; }
+  // Height up to which the soil there stands vertically, m.
+  double stands_to(std::uint32_t vertex) const { return stands[ground.surface.material[vertex]]; }
+  // Whether it stands for a while and then slides.
+  bool is_cohesive(std::uint32_t vertex) const {
+    const double height = stands_to(vertex);
+    return height > 0 && height < kStandsForEver;
+  }
 
   // A body has it, a blast makes it flow, or it moves as fast as what slides.
   bool is_held(std::uint32_t vertex) const {
@@ -86,36 +94,64 @@ double intact_slope(const std::array<Corner, 3>& p, double repose) {
   return before > repose ? kToSpare * before : repose;
 }
 
-// Soil that a face's slide brings to its corner k, m^3 per unit of mobility and time: linear finite elements.
-double share_of_corner(const std::array<Vec3d, 3>& p, const Slide& slide, std::uint32_t k) {
-  const Vec3d &a = p[(k + 1) % 3], &b = p[(k + 2) % 3];
-  return -(slide.x * (a.y - b.y) + slide.y * (b.x - a.x)) / twice_area(p[0], p[1], p[2]);
+// What there may be to look at round a restless vertex.
+constexpr std::uint8_t kSteepFace = 1, kSteepEdge = 2;
+
+// Slopes below which there is nothing: the least of all soils, with a margin for rounding.
+struct LeastSlopes {
+  double face = 0;  // of a face that slides
+  double edge = 0;  // of an edge down which cohesive ground falls beyond the slope of rest
+};
+
+LeastSlopes least_slopes(const Site& site) {
+  constexpr double kMargin = 1 - 1e-6, kNever = 1e9;
+  LeastSlopes least{kNever, kNever};
+  for (std::size_t m = 0; m < site.media.size(); ++m) {
+    const double repose = site.media[m].tan_repose;
+    least.face = std::min(least.face, kMargin * (repose + kAtRest));
+    if (site.stands[m] > 0 && site.stands[m] < kStandsForEver) least.edge = std::min(least.edge, kMargin * repose);
+  }
+  return least;
+}
+
+// Soil that a flow through a face, uphill where positive, brings to each of its corners: linear finite elements.
+std::array<double, 3> shares(const std::array<Corner, 3>& p, const Gradient& flow, double area) {
+  std::array<double, 3> share;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const Vec3d &a = p[(k + 1) % 3].now, &b = p[(k + 2) % 3].now;
+    share[k] = -(flow.x * (a.y - b.y) + flow.y * (b.x - a.x)) / area;
+  }
+  return share;
 }
 
 // Whether a face slides, and what then flows through it. The same bits whichever corner asks.
-bool look_at(const Site& site, std::uint32_t face, Slide& slide) {
+bool look_at(const Site& site, std::uint32_t face, const LeastSlopes& least, Slide& slide) {
+  const state::Surface& surface = site.ground.surface;
+  const auto vertex = [&](std::uint32_t k) { return surface.mesh.origin(3 * face + k); };
+  std::array<Vec3d, 3> place;
+  for (std::uint32_t k = 0; k < 3; ++k) place[k] = to_double(surface.position[vertex(k)]);
+  const double area = twice_area(place[0], place[1], place[2]);
+  if (!(area > 0)) return false;
+  const Gradient g = gradient(place[0], place[1], place[2], area);
+  const double slope = g.size();
+  if (slope <= least.face) return false;
   std::array<Corner, 3> p;
   for (std::uint32_t k = 0; k < 3; ++k) {
-    const std::uint32_t vertex = site.ground.surface.mesh.origin(3 * face + k);
-    if (site.is_held(vertex)) return false;
-    p[k] = site.corner(vertex);
+    if (site.is_held(vertex(k))) return false;
+    p[k] = site.corner(vertex(k));
   }
-  const double area = twice_area(p[0].now, p[1].now, p[2].now);
-  if (!(area > 0)) return false;
-  const Gradient g = gradient(p[0].now, p[1].now, p[2].now, area);
-  const double slope = g.size();
   // The soil at the highest corner is what would slide.
   const Corner& top = *std::max_element(p.begin(), p.end(), [](auto& a, auto& b) { return a.now.z < b.now.z; });
   const laws::Medium& medium = site.medium(top.vertex);
   if (slope <= medium.tan_repose + kAtRest) return false;
+  const double stands = site.stands_to(top.vertex);
+  if (stands > 0 && site.excess(top.vertex) <= stands) return false;
   const double intact = intact_slope(p, medium.tan_repose);
   const auto base = [](const Corner& c) { return c.now - Vec3d{0, 0, c.loose}; };
   const double below = gradient(base(p[0]), base(p[1]), base(p[2]), area).size();
   const bool only_loose = std::min(slope, below) <= intact + kAtRest;
-  if (only_loose && top.loose <= kThinnest * site.ground.surface.spacing) return false;
+  if (only_loose && top.loose <= kThinnest * surface.spacing) return false;
   const double rest = only_loose ? medium.tan_repose : intact;
-  const double stands = laws::critical_height(medium, site.gravity);
-  if (stands > 0 && site.excess(top.vertex) <= stands) return false;
 
   double low = p[0].now.z, high = low, height = 0, longest = 0;
   for (std::uint32_t k = 0; k < 3; ++k) {
@@ -125,21 +161,15 @@ bool look_at(const Site& site, std::uint32_t face, Slide& slide) {
     longest = std::max(longest, edge.x * edge.x + edge.y * edge.y);
   }
   const double share = 0.5 * area * (1 - rest / slope);
-  slide = {face, share * g.x, share * g.y, laws::slide_mobility(std::max(height, high - low), site.gravity),
-           area * area / (6 * longest)};
+  slide = {face, shares(p, {share * g.x, share * g.y}, area),
+           laws::slide_mobility(std::max(height, high - low), site.gravity), area * area / (6 * longest),
+           std::numeric_limits<double>::infinity()};
   // What lies loose on ground that stands goes, but takes none of that ground along: the face's part of the column.
-  slide.most = std::numeric_limits<double>::infinity();
   if (only_loose) {
-    const std::array<Vec3d, 3> place = {p[0].now, p[1].now, p[2].now};
-    const double leaves = -share_of_corner(place, slide, static_cast<std::uint32_t>(&top - p.data()));
+    const double leaves = -slide.share[static_cast<std::size_t>(&top - p.data())];
     if (leaves > 0) slide.most = top.loose * area / 6 / leaves;
   }
   return true;
-}
-
-void sort_unique(std::vector<std::uint32_t>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
 // Of cohesive ground: the highest that any way down from a vertex falls beyond the slope of rest, m. Each call carries
@@ -149,47 +179,82 @@ float find_excess(const Site& site, std::uint32_t vertex) {
   const double repose = site.medium(vertex).tan_repose;
   double most = 0;
   site.ground.surface.mesh.for_each_neighbour(vertex, [&](std::uint32_t u) {
-    const Corner foot = site.corner(u);
-    double rest = repose * std::hypot(top.now.x - foot.now.x, top.now.y - foot.now.y);
-    if (top.loose <= 0) rest = std::max(rest, top.then.z - foot.then.z);
-    const double fall = top.now.z - foot.now.z - rest;
-    most = std::max(most, site.excess(u) + fall);
+    const Vec3d way = top.now - to_double(site.ground.surface.position[u]);
+    const double below = site.excess(u) + way.z, rest = repose * std::sqrt(way.x * way.x + way.y * way.y);
+    if (below - rest <= most) return;
+    const double before = top.loose <= 0 ? top.then.z - site.corner(u).then.z : rest;
+    most = std::max(most, below - std::max(rest, before));
   });
   return static_cast<float>(most);
 }
 
-// Brings `soil.excess` up to date at and round the restless ground where it has cohesion; `next` gets what changed.
-void update_excess(Ground& ground, const Site& site, SlumpScratch& scratch) {
-  std::vector<std::uint32_t>& vertices = scratch.vertices;
-  vertices.clear();
-  const auto add = [&](std::uint32_t vertex) {
-    const double stands = laws::critical_height(site.medium(vertex), site.gravity);
-    if (stands > 0 && stands < kStandsForEver) vertices.push_back(vertex);
+// Looks at places alone: far cheaper than what it saves. An excess changes only at a vertex where there is one, or
+// that a steep edge joins to one that moved or whose own has changed.
+std::uint8_t look_round(const Site& site, std::uint32_t vertex, const LeastSlopes& least) {
+  const state::Surface& surface = site.ground.surface;
+  const Vec3d centre = to_double(surface.position[vertex]);
+  const double face = least.face * least.face, edge = least.edge * least.edge;
+  std::uint8_t round = site.excess(vertex) > 0 ? kSteepEdge : 0;
+  const auto look_along = [&](std::uint32_t neighbour, const Vec3d& way) {
+    const bool steep = way.z * way.z > edge * (way.x * way.x + way.y * way.y);
+    if (steep || site.excess(neighbour) > 0) round |= kSteepEdge;
   };
-  for (const std::uint32_t vertex : ground.soil.restless) {
-    add(vertex);
-    ground.surface.mesh.for_each_neighbour(vertex, add);
+  surface.mesh.for_each_outgoing(vertex, [&](std::uint32_t h) {
+    const std::uint32_t far = geometry::HalfEdgeMesh::prev(h);
+    const std::uint32_t a = surface.mesh.target(h), b = surface.mesh.origin(far);
+    const Vec3d u = to_double(surface.position[a]) - centre, v = to_double(surface.position[b]) - centre;
+    const Vec3d normal = cross(u, v);
+    if (normal.x * normal.x + normal.y * normal.y > face * normal.z * normal.z) round |= kSteepFace;
+    look_along(a, u);
+    if (surface.mesh.twin(far) == kNone) look_along(b, v);
+  });
+  return round;
+}
+
+void look_round_restless(const Site& site, const LeastSlopes& least, SlumpScratch& scratch, const Jobs& jobs) {
+  const std::vector<std::uint32_t>& restless = site.ground.soil.restless;
+  scratch.round.resize(restless.size());
+  const auto work = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) scratch.round[k] = look_round(site, restless[k], least);
+  };
+  jobs.for_ranges(restless.size(), kGrain, std::ref(work));
+}
+
+// Brings `soil.excess` up to date at and round the restless ground where it has cohesion; `next` gets what changed.
+void update_excess(Ground& ground, const Site& site, SlumpScratch& scratch, const Jobs& jobs) {
+  const auto add = [&](std::uint32_t vertex) {
+    if (site.is_cohesive(vertex)) scratch.set.insert(vertex);
+  };
+  for (std::size_t k = 0; k < ground.soil.restless.size(); ++k) {
+    if (!(scratch.round[k] & kSteepEdge)) continue;
+    add(ground.soil.restless[k]);
+    ground.surface.mesh.for_each_neighbour(ground.soil.restless[k], add);
   }
-  sort_unique(vertices);
+  std::vector<std::uint32_t>& vertices = scratch.vertices;
+  scratch.set.drain(vertices);
   scratch.excess.resize(vertices.size());
-  for (std::size_t k = 0; k < vertices.size(); ++k) scratch.excess[k] = find_excess(site, vertices[k]);
+  const auto work = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) scratch.excess[k] = find_excess(site, vertices[k]);
+  };
+  jobs.for_ranges(vertices.size(), kGrain, std::ref(work));
   for (std::size_t k = 0; k < vertices.size(); ++k) {
-    const double stands = laws::critical_height(site.medium(vertices[k]), site.gravity);
-    if (std::abs(scratch.excess[k] - site.excess(vertices[k])) <= kSameExcess * stands) continue;
+    const double same = kSameExcess * site.stands_to(vertices[k]);
+    if (std::abs(scratch.excess[k] - site.excess(vertices[k])) <= same) continue;
     ground.soil.excess[state::touch_column(ground.surface, ground.soil, vertices[k])] = scratch.excess[k];
     scratch.next.push_back(vertices[k]);
   }
 }
 
-void find_slides(const Site& site, SlumpScratch& scratch, const Jobs& jobs) {
-  scratch.faces.clear();
-  for (const std::uint32_t vertex : site.ground.soil.restless)
-    site.ground.surface.mesh.for_each_face(vertex, [&](std::uint32_t face) { scratch.faces.push_back(face); });
-  sort_unique(scratch.faces);
+void find_slides(const Site& site, const LeastSlopes& least, SlumpScratch& scratch, const Jobs& jobs) {
+  for (std::size_t k = 0; k < scratch.round.size(); ++k)
+    if (scratch.round[k] & kSteepFace)
+      site.ground.surface.mesh.for_each_face(site.ground.soil.restless[k],
+                                             [&](std::uint32_t face) { scratch.set.insert(face); });
+  scratch.set.drain(scratch.faces);
   scratch.found.resize(scratch.faces.size());
   const auto work = [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
-      if (!look_at(site, scratch.faces[k], scratch.found[k])) scratch.found[k].face = kNone;
+      if (!look_at(site, scratch.faces[k], least, scratch.found[k])) scratch.found[k].face = kNone;
   };
   jobs.for_ranges(scratch.faces.size(), kGrain, std::ref(work));  // by reference: a copy would be an allocation
   scratch.slides.clear();
@@ -200,25 +265,24 @@ void find_slides(const Site& site, SlumpScratch& scratch, const Jobs& jobs) {
 // Soil that comes to each corner of what slides in a sweep of `dt`, gathered over its faces in their order.
 void gather_inflow(const Ground& ground, double dt, SlumpScratch& scratch, const Jobs& jobs) {
   const state::Surface& surface = ground.surface;
-  scratch.vertices.clear();
-  for (const Slide& slide : scratch.slides)
-    for (std::uint32_t h = 3 * slide.face; h < 3 * slide.face + 3; ++h)
-      scratch.vertices.push_back(surface.mesh.origin(h));
-  sort_unique(scratch.vertices);
+  for (const Slide& slide : scratch.slides) {
+    scratch.sliding.insert(slide.face);
+    for (std::uint32_t h = 3 * slide.face; h < 3 * slide.face + 3; ++h) scratch.set.insert(surface.mesh.origin(h));
+  }
+  scratch.set.drain(scratch.vertices);
+  scratch.sliding.list(scratch.faces);
   scratch.inflow.assign(scratch.vertices.size(), 0);
   const auto work = [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
       surface.mesh.for_each_outgoing(scratch.vertices[k], [&](std::uint32_t h) {
-        const auto slide = std::lower_bound(scratch.slides.begin(), scratch.slides.end(), h / 3,
-                                            [](const Slide& s, std::uint32_t face) { return s.face < face; });
-        if (slide == scratch.slides.end() || slide->face != h / 3) return;
-        std::array<Vec3d, 3> p;
-        for (std::uint32_t j = 0; j < 3; ++j) p[j] = to_double(surface.position[surface.mesh.origin(3 * (h / 3) + j)]);
-        const double flows = std::min({slide->wanted * dt, slide->stable, slide->most});
-        scratch.inflow[k] += flows * share_of_corner(p, *slide, h % 3);
+        const std::uint32_t index = scratch.sliding.index_of(h / 3);
+        if (index == kNone) return;
+        const Slide& slide = scratch.slides[index];
+        scratch.inflow[k] += std::min({slide.wanted * dt, slide.stable, slide.most}) * slide.share[h % 3];
       });
   };
   jobs.for_ranges(scratch.vertices.size(), kGrain, std::ref(work));  // by reference: a copy would be an allocation
+  scratch.sliding.clear();
 }
 
 int plan_sweeps(const std::vector<Slide>& slides, double dt) {
@@ -232,12 +296,16 @@ int plan_sweeps(const std::vector<Slide>& slides, double dt) {
 void slump(Ground& ground, std::span<const laws::Medium> media, double gravity, double dt, SlumpScratch& scratch,
            const Jobs& jobs) {
   if (!(gravity > 0)) return ground.soil.restless.clear();
-  const Site site{ground, media, gravity};
+  scratch.stands.clear();
+  for (const laws::Medium& medium : media) scratch.stands.push_back(laws::critical_height(medium, gravity));
+  const Site site{ground, media, scratch.stands, gravity};
+  const LeastSlopes least = least_slopes(site);
   int sweeps = 1;
   for (int sweep = 0; sweep < sweeps && !ground.soil.restless.empty(); ++sweep) {
     scratch.next.clear();
-    update_excess(ground, site, scratch);
-    find_slides(site, scratch, jobs);
+    look_round_restless(site, least, scratch, jobs);
+    update_excess(ground, site, scratch, jobs);
+    find_slides(site, least, scratch, jobs);
     if (sweep == 0) sweeps = plan_sweeps(scratch.slides, dt);
     gather_inflow(ground, dt / sweeps, scratch, jobs);
     float furthest = 0;
@@ -247,7 +315,7 @@ void slump(Ground& ground, std::span<const laws::Medium> media, double gravity, 
     }
     ground.moved.distance += furthest, ground.moved.free_distance += furthest;
     scratch.next.insert(scratch.next.end(), scratch.vertices.begin(), scratch.vertices.end());
-    sort_unique(scratch.next);
+    scratch.set.sort_unique(scratch.next);
     std::swap(ground.soil.restless, scratch.next);
   }
 }
