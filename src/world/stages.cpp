@@ -17,6 +17,10 @@ constexpr int kMostSubsteps = 64;
 // Share of a blast's pulse that one substep may take while it is violent.
 constexpr double kPulseShare = 0.125;
 
+// What is too fast for the most substeps is softened anyway, and need not be followed at all while none of it moves
+// faster than so many spacings a second: a road's edge in the mud.
+constexpr double kSlowSpeed = 0.1;
+
 struct Substeps {
   int count = 1;
   bool limited = false;
@@ -30,25 +34,27 @@ void find_least_masses(const state::Particles& p, std::size_t media, std::vector
     if (p.hold[i] != Hold::anchor) least[p.material[i]] = std::min(least[p.material[i]], p.mass[i]);
 }
 
-// The highest frequency and damping rate of any particle that is awake, 1/s: that of the lightest of each medium, and
-// the drag of what a blast makes flow. Takes no look at the particles.
-double fastest_rate(std::span<const float> least_mass, std::span<const laws::Medium> media,
-                    std::span<const state::Blast> blasts) {
+// The higher of frequency and damping rate of a particle of a medium, 1/s; `flow`: the drag of what a blast makes flow.
+double rate_of(const laws::Medium& m, float mass, double flow) {
+  const double ground = m.ground ? m.elastic_stiffness / m.areal_mass : 0;
+  const double frequency = std::sqrt(laws::lattice_stiffness(m) / mass + ground);
+  const double drag = m.ground ? m.ground_damping / m.areal_mass : 0;
+  return std::max(frequency,
+                  laws::kLatticeDamping * m.viscous_damping / mass + m.areal_damping / m.areal_mass + drag + flow);
+}
+
+double drag_of_flow(std::span<const state::Blast> blasts) {
   double flow = 0;
   for (const state::Blast& blast : blasts)
     if (blast.active) flow = std::max<double>(flow, blast.flow_rate);
-  double fastest = 0;
-  for (std::size_t k = 0; k < least_mass.size(); ++k) {
-    const laws::Medium& m = media[k];
-    if (!std::isfinite(least_mass[k])) continue;
-    const double mass = least_mass[k], ground = m.ground ? m.elastic_stiffness / m.areal_mass : 0;
-    const double frequency = std::sqrt(laws::lattice_stiffness(m) / mass + ground);
-    const double drag = m.ground ? m.ground_damping / m.areal_mass : 0;
-    const double damping =
-        laws::kLatticeDamping * m.viscous_damping / mass + m.areal_damping / m.areal_mass + drag + flow;
-    fastest = std::max({fastest, frequency, damping});
-  }
-  return fastest;
+  return flow;
+}
+
+// Does no free particle of a medium move faster than `speed`, m/s?
+bool is_slow(const state::Particles& p, std::size_t medium, float speed) {
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (p.material[i] == medium && p.hold[i] == Hold::free && length(p.velocity(i)) > speed) return false;
+  return true;
 }
 
 // While its pulse lasts, and then for eight relaxation times of what it made flow.
@@ -56,15 +62,24 @@ bool is_violent(const state::Blast& blast, double time) {
   return blast.active && time < blast.start + 17 * blast.pulse;
 }
 
-Substeps plan_substeps(std::span<const float> least_mass, std::span<const laws::Medium> media,
-                       std::span<const state::Blast> blasts, double time, double dt) {
-  double wanted = dt * fastest_rate(least_mass, media, blasts);
+// Substeps follow the lightest particle of the fastest medium that is awake.
+Substeps plan_substeps(const state::Particles& p, std::span<const float> least_mass, float slow,
+                       std::span<const laws::Medium> media, std::span<const state::Blast> blasts, double time,
+                       double dt) {
+  const double flow = drag_of_flow(blasts);
+  double wanted = 0, all = 0;
+  for (std::size_t k = 0; k < least_mass.size(); ++k) {
+    if (!std::isfinite(least_mass[k])) continue;
+    const double own = dt * rate_of(media[k], least_mass[k], flow);
+    all = std::max(all, own);
+    if (own <= kMostSubsteps || !is_slow(p, k, slow)) wanted = std::max(wanted, own);
+  }
   for (const state::Blast& blast : blasts)
     if (is_violent(blast, time)) wanted = std::max(wanted, dt / (kPulseShare * blast.pulse));
   Substeps plan;
   plan.count = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSubsteps);
   plan.limited = wanted > kMostSubsteps;
-  plan.resolution.rate = static_cast<float>(plan.limited ? plan.count / dt : 1e18);
+  plan.resolution.rate = static_cast<float>(plan.limited || all > plan.count ? plan.count / dt : 1e18);
   return plan;
 }
 
@@ -149,7 +164,8 @@ void World::Impl::find_neighbours(bool particles_changed) {
 void World::Impl::move_particles(bool particles_changed, StepReport& report) {
   if (particles.size() == 0) return;
   if (particles_changed) find_least_masses(particles, media.size(), least_mass);
-  const Substeps plan = plan_substeps(least_mass, media, blasts, time(), scene.dt);
+  const Substeps plan = plan_substeps(particles, least_mass, static_cast<float>(kSlowSpeed * surface.spacing), media,
+                                      blasts, time(), scene.dt);
   report.substeps = plan.count;
   report.substeps_limited = plan.limited;
   const forces::Field field{
