@@ -35,7 +35,7 @@ struct Stillness {
 struct Scratch {
   std::vector<double> lost;  ///< [particle] m^3 that vanished below it in this step
   FlowScratch flow;
-  core::IdSet set;           ///< of vertices, empty between uses
+  core::IdSet set;  ///< of vertices, empty between uses
   SlumpScratch slump;
 };
 

@@ -78,8 +78,8 @@ Substeps plan_substeps(const state::Particles& p, std::span<const float> least_m
     if (is_violent(blast, time)) wanted = std::max(wanted, dt / (kPulseShare * blast.pulse));
   Substeps plan;
   plan.count = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSubsteps);
-  plan.limited = wanted > kMostSubsteps;
-  plan.resolution.rate = static_cast<float>(plan.limited || all > plan.count ? plan.count / dt : 1e18);
+  plan.limited = std::max(wanted, all) > plan.count;
+  plan.resolution.rate = static_cast<float>(plan.limited ? plan.count / dt : 1e18);
   return plan;
 }
 
