@@ -139,6 +139,7 @@ Result<BodyId> World::spawn(const BodySettings& settings) {
   body.inertia = settings.mass * body.solid->inertia;
   body.restitution = settings.restitution;
   body.friction = settings.friction;
+  if (place::is_set_down(*impl_, settings, *placed)) body.weight_share = 0;
   using math::operator*;
   body.orientation = rotation(settings.rotation_deg) * math::conjugate(body.solid->axes);
   body.position = placed->origin - math::rotate(body.orientation, body.solid->origin);

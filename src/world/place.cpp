@@ -151,6 +151,12 @@ std::optional<double> lift(const World::Impl& w, const BodySettings& body, const
   return lift_of_any(w, body, placed);
 }
 
+bool is_set_down(const World::Impl& w, const BodySettings& body, const Placed& placed) {
+  if (length(body.velocity) > 0 || length(body.angular_velocity) > 0) return false;
+  const auto touching = lift(w, body, placed);
+  return touching && placed.origin.z - *touching < 0.01 * placed.solid->radius;
+}
+
 Result<void> check_place(const World::Impl& w, const BodySettings& body, const Placed& placed) {
   Quat orientation;
   const Vec3d center = center_at(body, *placed.solid, placed.origin, orientation);

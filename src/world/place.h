@@ -22,6 +22,9 @@ Result<Placed> prepare(const World::Impl& w, const BodySettings& body);
 /// there is none below it. [O(vertices below it)]
 std::optional<double> lift(const World::Impl& w, const BodySettings& body, const Placed& placed);
 
+/// Whether a body that comes into the world stands still on the ground, to a hundredth of its radius.
+bool is_set_down(const World::Impl& w, const BodySettings& body, const Placed& placed);
+
 /// What is wrong with the body's place, if anything.
 Result<void> check_place(const World::Impl& w, const BodySettings& body, const Placed& placed);
 
