@@ -184,10 +184,12 @@ TEST(BodiesTogether, AHeavyBoxOnALightOneSinksAsTheSum) {
       const auto sinkage = [&](double lower, double upper) {
         Scene scene = scene_on(material, 0.1);
         scene.dt = dt;
-        scene.bodies = {{.name = "lower", .shape = Box{{0.6, 0.6, 0.3}}, .mass = lower, .position = {0, 0, 0.15}}};
+        // Off the middle: sides that lie on columns to the last bit gain or lose them with the faintest tilt.
+        const double x = 0.02, y = 0.03;
+        scene.bodies = {{.name = "lower", .shape = Box{{0.6, 0.6, 0.3}}, .mass = lower, .position = {x, y, 0.15}}};
         if (upper > 0)
           scene.bodies.push_back(
-              {.name = "upper", .shape = Box{{0.5, 0.5, 0.5}}, .mass = upper, .position = {0, 0, 0.55}});
+              {.name = "upper", .shape = Box{{0.5, 0.5, 0.5}}, .mass = upper, .position = {x, y, 0.55}});
         World world = make_world(scene);
         run_to(world, 3);
         EXPECT_LT(length(world.bodies().back().velocity), 0.01) << material << ' ' << dt;
