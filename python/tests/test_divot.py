@@ -92,7 +92,7 @@ def test_errors_are_those_of_the_command_line(tmp_path):
         divot.World(file)
     text = str(caught.value)
     assert f"{file}:1: duration: -1 is out of range; expected a number > 0" in text
-    assert f"{file}:4: terrain.materail: unknown key; the nearest known key is terrain.material" in text
+    assert f"{file}:4: terrain.materail: unknown key; the nearest known key is material" in text
     assert [p.line for p in caught.value.problems] == [1, 4]
     with pytest.raises(divot.Error, match=r"^bodies\[0\].mass: -3 is out of range; expected a number > 0"):
         divot.World(small(bodies=[{"shape": {"sphere": {"radius": 1}}, "mass": -3, "position": [0, 0]}]))

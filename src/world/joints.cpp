@@ -46,6 +46,9 @@ Result<JointId> World::add_joint(const Joint& joint) {
     const Quat back = math::conjugate(first.orientation);
     held.on_first = {math::rotate(back, held.on_first.anchor - first.position), back * held.on_first.axes};
   }
+  // What joints hold is carried by others, whose weight comes at once: so does its own.
+  for (const std::uint32_t body : {held.first, held.second})
+    if (body != kNone) impl_->bodies[body].weight_share = 1;
   impl_->rigid.add(held);
   impl_->joints.push_back(std::move(held));
   return JointId{static_cast<std::uint32_t>(impl_->joints.size() - 1)};
