@@ -32,8 +32,9 @@ def _tag():
 def _build_module(folder):
     """Compiles the module; returns its path."""
     jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count()))
-    subprocess.run(["cmake", "-S", ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DDIVOT_PYTHON=ON",
-                    "-DDIVOT_VIEWER=OFF", "-DDIVOT_TESTS=OFF", *os.environ.get("DIVOT_CMAKE_ARGS", "").split()], check=True)
+    if not (pathlib.Path(folder) / "CMakeCache.txt").exists():  # DIVOT_BUILD may name a tree that is set up already
+        subprocess.run(["cmake", "-S", ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DDIVOT_PYTHON=ON",
+                        "-DDIVOT_VIEWER=OFF", "-DDIVOT_TESTS=OFF", *os.environ.get("DIVOT_CMAKE_ARGS", "").split()], check=True)
     subprocess.run(["cmake", "--build", folder, "--target", "divot_python", "--parallel", jobs], check=True)
     return next((pathlib.Path(folder) / "python" / "divot").glob("_divot*.so"))
 
