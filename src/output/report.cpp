@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
+#include <variant>
 
 #include "divot/output.h"
 #include "divot/version.h"
@@ -70,11 +71,14 @@ Json body_facts(const BodyView& b, const Vec3d& origin) {
 }
 
 Json mesh_facts(const BodyView& body) {
-  const output::BodyMesh mesh = output::body_mesh(body);
+  const output::BodyMesh mesh = output::body_mesh(*body.shape);
   Json vertices = Json::array();
   for (const Vec3d& p : mesh.vertices)
     for (const double v : {p.x, p.y, p.z}) vertices.push_back(rounded(v));
-  return {{"name", body.name}, {"vertices", vertices}, {"triangles", mesh.triangles}};
+  const Shape& shape = *body.shape;
+  const bool rolls = std::holds_alternative<Sphere>(shape) || std::holds_alternative<Cylinder>(shape) ||
+                     std::holds_alternative<Capsule>(shape);
+  return {{"name", body.name}, {"vertices", vertices}, {"triangles", mesh.triangles}, {"rolls", rolls}};
 }
 
 std::string escaped(const std::string& text) {

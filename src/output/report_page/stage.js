@@ -2,7 +2,7 @@
 
 const kBodyColors = ['#c8641e', '#2f6f9f', '#5b8c3a', '#8a4f9e', '#b03a48', '#3d8f8a'];
 
-// A body as its triangles, painted in two shades by octant so that one sees it spin.
+// A body as its triangles; what rolls is painted in two shades by quarters about its axis y, so that one sees it spin.
 function bodyObject(body, k) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(body.vertices), 3));
@@ -13,7 +13,7 @@ function bodyObject(body, k) {
   const color = new THREE.Color(kBodyColors[k % kBodyColors.length]);
   for (let i = 0; i < position.length; i += 9) {
     const middle = [0, 1, 2].map((c) => position[i + c] + position[i + 3 + c] + position[i + 6 + c]);
-    const dark = (middle[0] > 0) !== (middle[1] > 0) !== (middle[2] > 0) ? 1 : 0.62;
+    const dark = body.rolls && (middle[0] > 0) !== (middle[2] > 0) ? 0.62 : 1;
     for (let v = 0; v < 3; ++v) shade.set([color.r * dark, color.g * dark, color.b * dark], i + 3 * v);
   }
   flat.setAttribute('color', new THREE.BufferAttribute(shade, 3));
