@@ -167,4 +167,19 @@ void main() {
 }
 )";
 
+// A picture over all of the viewport.
+inline constexpr char kStretchVertex[] = R"(#version 130
+out vec2 place;
+void main() {
+  place = 0.5 + 0.5 * gl_Vertex.xy;
+  gl_Position = vec4(gl_Vertex.xy, 0.0, 1.0);
+}
+)";
+
+inline constexpr char kStretchFragment[] = R"(#version 130
+uniform sampler2D picture;
+in vec2 place;
+void main() { gl_FragColor = texture(picture, place); }
+)";
+
 }  // namespace divot::viewer::glsl

@@ -78,6 +78,7 @@ osg::ref_ptr<osg::Program> ink_program() {
   return make_program(kVersion + glsl::kShownNumber + glsl::kRamp + glsl::kInkVertex, glsl::kInkFragment);
 }
 osg::ref_ptr<osg::Program> point_program() { return make_program(glsl::kPointVertex, glsl::kTintFragment); }
+osg::ref_ptr<osg::Program> stretch_program() { return make_program(glsl::kStretchVertex, glsl::kStretchFragment); }
 osg::ref_ptr<osg::Program> puff_program() { return make_program(glsl::kPuffVertex, glsl::kPuffFragment); }
 
 }  // namespace divot::viewer

@@ -33,8 +33,9 @@ osg::ref_ptr<osg::Program> wall_program(Quality quality);        ///< the cut th
 osg::ref_ptr<osg::Program> ball_program(Quality quality);        ///< spheres: bodies with a pattern that shows rolling
 osg::ref_ptr<osg::Program> depth_program();                      ///< what the sun sees
 osg::ref_ptr<osg::Program> background_program(Quality quality);  ///< gradient behind everything
-osg::ref_ptr<osg::Program> ink_program();    ///< one colour without light: lines and fillings of the wireframe
-osg::ref_ptr<osg::Program> point_program();  ///< points and lines without light
-osg::ref_ptr<osg::Program> puff_program();   ///< dust and flashes
+osg::ref_ptr<osg::Program> ink_program();      ///< one colour without light: lines and fillings of the wireframe
+osg::ref_ptr<osg::Program> point_program();    ///< points and lines without light
+osg::ref_ptr<osg::Program> puff_program();     ///< dust and flashes
+osg::ref_ptr<osg::Program> stretch_program();  ///< a picture, texture unit `picture`, over all of the viewport
 
 }  // namespace divot::viewer

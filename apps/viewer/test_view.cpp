@@ -245,9 +245,14 @@ TEST_P(SamePicture, InAWindowAndWithoutOne) {
   setenv("DISPLAY", display.name().c_str(), 1);
   const Scene scene = parse_scene(kBall, "ball.toml").value();
   const auto jobs = std::make_shared<const Jobs>(1);
-  auto window = Window::create(
-      scene, jobs,
-      {.width = 480, .height = 320, .quality = GetParam(), .paused = true, .show_numbers = false, .effects = false});
+  auto window = Window::create(scene, jobs,
+                               {.width = 480,
+                                .height = 320,
+                                .quality = GetParam(),
+                                .fast_share = 1,
+                                .paused = true,
+                                .show_numbers = false,
+                                .effects = false});
   ASSERT_TRUE(window) << window.error().front().text();
   for (int i = 0; i < 10; ++i) ASSERT_TRUE(window->frame());
   const Image shown = window->capture();
@@ -262,6 +267,33 @@ TEST_P(SamePicture, InAWindowAndWithoutOne) {
   int largest = 0;
   for (std::size_t i = 0; i < shown.rgb.size(); ++i) largest = std::max(largest, std::abs(shown.rgb[i] - drawn.rgb[i]));
   EXPECT_LE(largest, 2);
+}
+
+Image fast_picture(double share) {
+  const Scene scene = parse_scene(kBall, "ball.toml").value();
+  const WindowOptions options{.width = 640, .height = 360, .fast_share = share, .paused = true};
+  auto window = Window::create_offscreen(scene, std::make_shared<const Jobs>(1), options);
+  EXPECT_TRUE(window) << window.error().front().text();
+  window->frame_after(0);
+  return window->capture();
+}
+
+// The scene is drawn with fewer pixels; numbers over it are not.
+TEST(ViewFast, IsStretchedOverTheSamePlaces) {
+  const Image whole = fast_picture(1), stretched = fast_picture(0.75), coarse = fast_picture(0.125);
+  ASSERT_EQ(whole.rgb.size(), stretched.rgb.size());
+  EXPECT_GT(differing(whole, stretched, 2), 0.01);
+  EXPECT_LT(differing(whole, stretched, 24), 0.02);
+  EXPECT_GT(differing(whole, coarse, 24), 2 * differing(whole, stretched, 24));
+}
+
+TEST(ViewFast, ShareIsChecked) {
+  const Scene scene = parse_scene(kPlain, "plain.toml").value();
+  for (const double share : {0.0, 1.01, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    const auto window = Window::create_offscreen(scene, std::make_shared<const Jobs>(1), {.fast_share = share});
+    ASSERT_FALSE(window) << share;
+    EXPECT_EQ(window.error().front().key, "fast_share");
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Qualities, SamePicture, testing::Values(Quality::fast, Quality::fine));

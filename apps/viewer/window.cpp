@@ -15,6 +15,7 @@
 #include "viewer/pixel_reader.h"
 #include "viewer/saves.h"
 #include "viewer/screen.h"
+#include "viewer/stretched_view.h"
 #include "viewer/textures.h"
 
 namespace divot::viewer {
@@ -45,6 +46,10 @@ class Lap {
 
 Result<void> check(const WindowOptions& options) {
   const auto is_size = [](int size) { return size >= kLeastSize && size <= kLargestSize; };
+  if (!(options.fast_share > 0 && options.fast_share <= 1)) {
+    return failure(fmt::format("a fast picture cannot have {:g} of the pixels each way", options.fast_share),
+                   "more than 0, at most 1", "fast_share");
+  }
   if (is_size(options.width) && is_size(options.height)) return {};
   return failure(fmt::format("a window of {} x {} pixels cannot be opened", options.width, options.height),
                  fmt::format("{} to {} pixels each way", kLeastSize, kLargestSize), "size");
@@ -73,6 +78,7 @@ struct Window::Impl {
   void carry_out_commands();
   void window_action(Action action);
   void follow_size();
+  void follow_quality();
   void place_camera();
   void update_hud();
   void draw();
@@ -86,6 +92,7 @@ struct Window::Impl {
   std::optional<OffscreenContext> context;  // where there is no display
   osg::ref_ptr<osgViewer::Viewer> viewer;
   LiveView view;
+  StretchedView stretched{view.scene().root()};
   Hud hud;
   osg::ref_ptr<Input> input = new Input;
   osg::ref_ptr<PixelReader> reader = new PixelReader;
@@ -106,7 +113,7 @@ Window::Impl::Impl(LiveWorld live, const WindowOptions& asked, Quality first, os
       view(std::move(live), {.quality = first, .effects = asked.effects},
            static_cast<double>(asked.width) / asked.height) {
   osg::ref_ptr<osg::Group> root = new osg::Group;
-  root->addChild(&view.scene().root());
+  root->addChild(&stretched.root());
   if (options.show_numbers) root->addChild(&hud.root());
   viewer->setSceneData(root);
   viewer->addEventHandler(input);
@@ -162,6 +169,10 @@ void Window::Impl::follow_size() {
   hud.resize(width, height);
 }
 
+void Window::Impl::follow_quality() {
+  stretched.set_size(width, height, view.scene().look().quality == Quality::fast ? options.fast_share : 1);
+}
+
 void Window::Impl::place_camera() {
   const Camera camera = view.camera();
   const Vec3d origin = view.live().world().surface().origin, eye = camera.eye - origin, target = camera.target - origin;
@@ -204,6 +215,7 @@ FrameCost Window::Impl::show(double passed) {
   Lap lap;
   follow_size();
   carry_out_commands();
+  follow_quality();
   view.advance(std::min(passed, kLongestWait));
   cost.step_ms = lap();
   view.update();

@@ -18,6 +18,7 @@ namespace divot::viewer {
 struct WindowOptions {
   int width = 1280, height = 720;       ///< pixels, [64, 16384]
   std::optional<Quality> quality = {};  ///< empty: fine on a graphics card as long as it keeps up, else fast
+  double fast_share = 0.75;             ///< (0, 1], of the pixels each way that a fast picture is drawn with
   bool paused = false;
   bool show_numbers = true;  ///< the heads-up display
   bool effects = true;       ///< flash and dust of explosions
@@ -43,8 +44,8 @@ struct FrameCost {
 /// A world that runs in a window with the clock on the wall, and what mouse and keys do to it.
 class Window {
  public:
-  /// Opens it. Fails like World::create, when options are out of range (key `size`), or when there is no display that a
-  /// window could be opened on (key `display`).
+  /// Opens it. Fails like World::create, when options are out of range (keys `size`, `fast_share`), or when there is no
+  /// display that a window could be opened on (key `display`).
   static Result<Window> create(const Scene& scene, std::shared_ptr<const Jobs> jobs, const WindowOptions& options = {});
 
   /// The same without a display: pictures stay in memory, and nothing but frame_after() draws one. Without a quality in
