@@ -37,7 +37,9 @@ struct UpdateCounts {
   std::uint64_t neighbour_rebuilds = 0;  ///< rows built anew
   std::uint64_t bvh_refits = 0;          ///< boxes made to fit again
   std::uint64_t bvh_rebuilds = 0;        ///< trees built anew
-  std::uint64_t missed_pairs = 0;        ///< pairs in range that stale rows did not hold; 0 for adaptive and every_step
+  /// Pairs in range that rows did not hold when they were built anew. 0 for every_step; with adaptive only pairs that
+  /// came nearer by more than the skin within the last substep, which were found in time.
+  std::uint64_t missed_pairs = 0;
 };
 
 /// A crater as the surface shows it.
