@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "core/assert.h"
 #include "geometry/half_edge_mesh.h"
@@ -45,9 +46,10 @@ std::uint32_t HalfEdgeMesh::split_face(std::uint32_t h, std::uint32_t vertex) {
   return fresh;
 }
 
-std::uint32_t HalfEdgeMesh::split_edge(std::uint32_t h) {
-  const std::uint32_t g = twin_[h], middle = vertex_count();
-  outgoing_.push_back(kNone);
+std::uint32_t HalfEdgeMesh::split_edge(std::uint32_t h, std::uint32_t vertex) {
+  DIVOT_ASSERT(vertex == kNone || outgoing_[vertex] == kNone);
+  const std::uint32_t g = twin_[h], middle = vertex == kNone ? vertex_count() : vertex;
+  if (vertex == kNone) outgoing_.push_back(kNone);
   const std::uint32_t onward = split_face(h, middle);
   if (g != kNone) {
     link(h, split_face(g, middle));
@@ -56,6 +58,45 @@ std::uint32_t HalfEdgeMesh::split_edge(std::uint32_t h) {
   }
   for (const std::uint32_t e : {h, onward, next(onward), prev(h)}) settle_outgoing(origin_[e], e);
   return middle;
+}
+
+// h runs from a to the vertex m; the faces (a, m, c) and (m, b, c) become (a, b, c), and so on the other side, where g
+// runs from b to m.
+std::array<HalfEdgeMesh::Moved, 2> HalfEdgeMesh::unsplit_edge(std::uint32_t h) {
+  const std::uint32_t m = target(h), a = origin_[h], c = origin_[prev(h)];
+  const auto close = [&](std::uint32_t kept) {
+    const std::uint32_t inner = next(kept), onward = next(twin_[inner]), beyond = twin_[next(onward)];
+    origin_[inner] = target(onward);
+    twin_[inner] = kNone;
+    link(inner, beyond);
+    return onward;
+  };
+  const std::uint32_t onward = close(h), g = twin_[onward];
+  std::uint32_t d = kNone;
+  std::array<std::uint32_t, 2> gone{face_of(onward), kNone};
+  twin_[h] = kNone;
+  if (g != kNone) {
+    gone[1] = face_of(close(g));
+    link(h, g);
+    d = origin_[prev(g)];
+    outgoing_[d] = prev(g);
+  }
+  outgoing_[m] = kNone;
+  const std::uint32_t b = target(h);
+  outgoing_[a] = h, outgoing_[b] = next(h), outgoing_[c] = prev(h);
+
+  // The higher face goes first, so that the lower one is not the one that moves.
+  std::array<Moved, 2> moved;
+  if (gone[1] != kNone && gone[0] < gone[1]) std::swap(gone[0], gone[1]);
+  std::array<std::uint32_t, 10> settle{a, b, c, d, kNone, kNone, kNone, kNone, kNone, kNone};
+  for (std::size_t k = 0; k < 2 && gone[k] != kNone; ++k) {
+    moved[k] = {gone[k], face_count() - 1};
+    const auto corners = remove_face(gone[k]);
+    std::copy(corners.begin(), corners.end(), settle.begin() + 4 + 3 * static_cast<std::ptrdiff_t>(k));
+  }
+  for (const std::uint32_t v : settle)
+    if (v != kNone) settle_outgoing(v, outgoing_[v]);
+  return moved;
 }
 
 bool HalfEdgeMesh::flip_edge(std::uint32_t h) {

@@ -83,9 +83,19 @@ class HalfEdgeMesh {
     }
   }
 
-  /// Puts a new vertex in the middle of the edge of `h` and returns it: it is the last, and `h` now ends there; prev(h)
-  /// keeps its edge. One face at a boundary becomes two, two become four; the new faces are the last. [O(valence)]
-  std::uint32_t split_edge(std::uint32_t h);
+  /// Puts a new vertex in the middle of the edge of `h` and returns it: it is the last, or `vertex`, one without faces;
+  /// `h` now ends there; prev(h) keeps its edge. One face at a boundary becomes two, two become four; the new faces are
+  /// the last. [O(valence)]
+  std::uint32_t split_edge(std::uint32_t h, std::uint32_t vertex = kNone);
+
+  /// A face that is gone and the one that has taken its place, the last; the same where it was the last itself.
+  struct Moved {
+    std::uint32_t place = kNone, last = kNone;  ///< kNone: none is gone
+  };
+  /// Undoes split_edge: the target of `h`, which nothing else may have been joined to since, stays behind without
+  /// faces. The faces on the left of `h` and of the half-edge that meets it in that vertex are whole again; the other
+  /// one or two are gone, in the order told. [O(valence)]
+  std::array<Moved, 2> unsplit_edge(std::uint32_t h);
 
   /// Turns the edge between two faces into the other diagonal of their quad; `h` stays the half-edge of that edge.
   /// False, and nothing changes, at a boundary or where the other diagonal is an edge already. Whether the quad is
