@@ -77,7 +77,7 @@ inline Sheet make_sheet(const GridTerrain& grid, const std::vector<Material>& ma
     s.soil.particle[p.column[v]] = v;
     p.set_position(v, s.surface.position[v]);
     p.material[v] = s.surface.material[v];
-    p.mass[v] = s.media[p.material[v]].areal_mass * s.soil.area[p.column[v]];
+    p.mass[v] = s.media[p.material[v]].areal_mass * s.soil.cell[p.column[v]];
     p.hold[v] = Hold::free;
   }
   return s;

@@ -66,7 +66,7 @@ TEST(Activation, WakesWithARingOfAnchors) {
   for (std::size_t i = 0; i < g.particles.size(); ++i) {
     EXPECT_EQ(g.particles.position(i), g.surface.position[g.particles.vertex[i]]);
     EXPECT_EQ(g.particles.velocity(i), Vec3{});
-    EXPECT_FLOAT_EQ(g.particles.mass[i], g.media[0].areal_mass * g.soil.area[g.particles.column[i]]);
+    EXPECT_FLOAT_EQ(g.particles.mass[i], g.media[0].areal_mass * g.soil.cell[g.particles.column[i]]);
   }
 }
 

@@ -29,7 +29,7 @@ Sheet shaken_sheet(int size, bool bare, unsigned seed) {
   state::Particles& p = s.particles;
   for (std::size_t i = 0; i < p.size(); ++i) {
     p.material[i] = static_cast<std::uint8_t>(random.below(2));
-    p.mass[i] = s.media[p.material[i]].areal_mass * s.soil.area[p.column[i]];
+    p.mass[i] = s.media[p.material[i]].areal_mass * s.soil.cell[p.column[i]];
   }
   test::bond(s, kCutoff);
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -123,7 +123,7 @@ TEST(Forces, EqualADoubleSumOverAllPairs) {
       for (std::size_t i = 0; i < s.particles.size(); ++i) {
         const laws::Medium& medium = s.media[s.particles.material[i]];
         const std::uint32_t column = s.particles.column[i];
-        const float area = s.soil.area[column];
+        const float area = s.soil.cell[column];
         const Vec3 v = s.particles.velocity(i), moved = s.particles.position(i) - s.soil.rest[column];
         Vec3d expected =
             pair_sum(s, i, cohesion, soils) - static_cast<double>(medium.areal_damping * area) * to_double(v);

@@ -103,7 +103,7 @@ void expect_rows_hold_all_in_range(const state::Particles& p, const state::Bonds
 void follow_bonds(state::Particles& p, state::Bonds& bonds, Index& index, const Reach& reach, bool changed,
                   int threads = 1) {
   update(p, bonds, index, reach, changed, Jobs(threads));
-  const state::Soil soil{.rest = std::vector<Vec3>(1), .plastic = {0}, .area = {1}};
+  const state::Soil soil{.rest = std::vector<Vec3>(1), .plastic = {0}, .cell = {1}};
   test::renew(p, bonds, soil, kMedia, reach.cutoff);
 }
 

@@ -58,7 +58,7 @@ void append_row(state::Particles& to, const state::Particles& from, const state:
   to.vx.push_back(velocity.x), to.vy.push_back(velocity.y), to.vz.push_back(velocity.z);
   for (auto* force : {&to.fx, &to.fy, &to.fz}) force->push_back(0);
   to.material.push_back(surface.material[vertex]);
-  to.mass.push_back(media[surface.material[vertex]].areal_mass * soil.area[column]);
+  to.mass.push_back(media[surface.material[vertex]].areal_mass * soil.cell[column]);
   to.flow_rate.push_back(moves_on ? from.flow_rate[old] : 0);
   to.held_pull.push_back(moves_on ? from.held_pull[old] : 0);
   to.yielded.push_back(0);

@@ -36,13 +36,13 @@ Footing footing_at(std::uint32_t vertex, const Situation& s) {
   f.height = f.fresh = f.original = p.z;
   const std::uint32_t column = s.surface.column[vertex];
   if (column == kNone) {
-    f.area = state::vertex_area(s.surface, vertex);
+    f.area = state::cell_area(s.surface, vertex);
   } else {
     f.height = std::max(p.z, s.soil.rest[column].z);
     f.fresh = s.soil.fresh_height(column);
     f.original = s.soil.original[column].z;
     f.plastic = s.soil.plastic[column];
-    f.area = s.soil.area[column];
+    f.area = s.soil.cell[column];
     f.shear = to_double(s.soil.shear[column]);
     const std::uint32_t i = s.soil.particle[column];
     f.carried = i != kNone && s.particles.hold[i] == Hold::carried;
@@ -73,48 +73,75 @@ std::vector<Footing>::iterator nearest_to(double x, double y, std::vector<Footin
   });
 }
 
+// A line of touch from above.
+struct Line {
+  double x, y, dx, dy, squared;
+
+  explicit Line(const geometry::Ridge& r)
+      : x(r.from.x), y(r.from.y), dx(r.to.x - x), dy(r.to.y - y), squared(dx * dx + dy * dy) {}
+  // Where along it a column's foot is, from 0 to 1.
+  double foot(const Footing& f) const {
+    return std::clamp(((f.x - x) * dx + (f.y - y) * dy) / squared, 1e-6, 1 - 1e-6);
+  }
+  double distance(const Footing& f, double at) const { return std::hypot(f.x - x - at * dx, f.y - y - at * dy); }
+};
+
+// The columns beside the line that are nearest to their own foot on it. By distance, not by cells: where the shear has
+// drawn vertices apart, a wheel would find the gap between two cells.
+void choose_on_line(const Line& line, double spacing, const std::vector<Footing>& footings,
+                    std::vector<std::uint32_t>& beside, std::vector<std::uint32_t>& chosen) {
+  beside.clear(), chosen.clear();
+  for (std::uint32_t k = 0; k < footings.size(); ++k)
+    if (line.distance(footings[k], line.foot(footings[k])) < spacing) beside.push_back(k);
+  for (const std::uint32_t own : beside) {
+    const double at = line.foot(footings[own]), near = line.distance(footings[own], at);
+    const bool beaten = std::any_of(beside.begin(), beside.end(), [&](std::uint32_t other) {
+      const double distance = line.distance(footings[other], at);
+      return distance < near || (distance == near && other < own);
+    });
+    if (!beaten) chosen.push_back(own);
+  }
+}
+
+// Each column carries the part of the line that is nearer to its foot than to any other's, in the middle of that, with
+// such a share of the area of all: where feet stand unevenly, a wheel that crosses the grid at an angle would tilt to
+// and fro otherwise, and brake and turn by that.
+void share_line(const Line& line, const Situation& s, std::vector<Footing>& footings,
+                std::vector<std::uint32_t>& chosen) {
+  std::sort(chosen.begin(), chosen.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const double at_a = line.foot(footings[a]), at_b = line.foot(footings[b]);
+    return at_a != at_b ? at_a < at_b : a < b;
+  });
+  double area = 0, from = 0;
+  for (const std::uint32_t k : chosen) area += footings[k].area;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    Footing& f = footings[chosen[i]];
+    const double to = i + 1 < chosen.size() ? 0.5 * (line.foot(f) + line.foot(footings[chosen[i + 1]])) : 1;
+    const double middle = 0.5 * (from + to);
+    f.area = std::max((to - from) * area, 0.01 * f.area);
+    meet_at(s, line.x + middle * line.dx, line.y + middle * line.dy, f);
+    from = to;
+  }
+}
+
 // Vertices sample the ground too coarsely for a hard ball or wheel on hard ground: it would drop between them. The
 // columns that its line of touch runs through are therefore met on that line instead of at their vertices.
-void meet_on_ridge(const geometry::PosedPiece& piece, const Situation& s, std::vector<Footing>& footings,
-                   std::vector<std::uint32_t>& beside) {
+void meet_on_ridge(const geometry::PosedPiece& piece, const Situation& s, Scratch::PerBody& scratch) {
+  std::vector<Footing>& footings = scratch.footings;
   const Vec3d middle = 0.5 * (piece.low + piece.high);
   const auto below = nearest_to(middle.x, middle.y, footings);
   const auto ridge = piece.ridge(fresh_normal(s, below->vertex));
   if (!ridge) return;
-  const double dx = ridge->to.x - ridge->from.x, dy = ridge->to.y - ridge->from.y, squared = dx * dx + dy * dy;
-  if (squared < 1e-12) {
-    const auto touched = nearest_to(ridge->from.x, ridge->from.y, footings);
+  const Line line(*ridge);
+  if (line.squared < 1e-12) {
+    const auto touched = nearest_to(line.x, line.y, footings);
     const double half = 0.5 * s.surface.spacing;
-    if (std::abs(touched->x - ridge->from.x) <= half && std::abs(touched->y - ridge->from.y) <= half)
-      meet_at(s, ridge->from.x, ridge->from.y, *touched);
+    if (std::abs(touched->x - line.x) <= half && std::abs(touched->y - line.y) <= half)
+      meet_at(s, line.x, line.y, *touched);
     return;
   }
-  // Of the columns beside the line those that are nearest to their own foot on it. By distance, not by cells: where the
-  // shear has drawn vertices apart, a wheel would find the gap between two cells.
-  const auto foot = [&](const Footing& f) {
-    const double t = std::clamp(((f.x - ridge->from.x) * dx + (f.y - ridge->from.y) * dy) / squared, 1e-6, 1 - 1e-6);
-    return Vec3d{ridge->from.x + t * dx, ridge->from.y + t * dy, 0};
-  };
-  const auto apart = [](const Footing& f, const Vec3d& p) { return std::hypot(f.x - p.x, f.y - p.y); };
-  beside.clear();
-  for (std::uint32_t k = 0; k < footings.size(); ++k)
-    if (apart(footings[k], foot(footings[k])) < s.surface.spacing) beside.push_back(k);
-  const std::size_t count = beside.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Footing& f = footings[beside[i]];
-    const Vec3d p = foot(f);
-    const double own = apart(f, p);
-    const auto beats = [&](std::uint32_t k) {
-      const double other = apart(footings[k], p);
-      return other < own || (other == own && k < beside[i]);
-    };
-    if (std::none_of(beside.begin(), beside.begin() + static_cast<std::ptrdiff_t>(count), beats))
-      beside.push_back(beside[i]);
-  }
-  for (std::size_t i = count; i < beside.size(); ++i) {
-    const Vec3d p = foot(footings[beside[i]]);
-    meet_at(s, p.x, p.y, footings[beside[i]]);
-  }
+  choose_on_line(line, s.surface.spacing, footings, scratch.found, scratch.ring);
+  share_line(line, s, footings, scratch.ring);
 }
 
 // From `start` over the half-edges to the vertex nearest to x, y.
@@ -258,7 +285,7 @@ void gather(const state::Body& body, const Situation& s, Scratch::PerBody& scrat
   scratch.end.place(*body.solid, body.position + s.dt * body.velocity,
                     math::spun(body.orientation, body.angular_velocity, s.dt), true);
   cover(scratch.end, reach - 0.5 * s.surface.spacing, s, footings, scratch.covers);
-  for (const geometry::PosedPiece& piece : scratch.end.pieces()) meet_on_ridge(piece, s, footings, scratch.found);
+  for (const geometry::PosedPiece& piece : scratch.end.pieces()) meet_on_ridge(piece, s, scratch);
   meet_small_body(scratch.end, s, footings);
   double sum = 0;
   for (const Press& press : scratch.presses) sum += press.pressure;

@@ -15,7 +15,7 @@ bool is_punched(const std::vector<Press>& presses, std::uint8_t material, const 
   double area = 0, force = 0;
   for (const Press& press : presses) {
     if (surface.material[press.vertex] != material || press.pressure <= 0) continue;
-    const double own = soil.area[surface.column[press.vertex]];
+    const double own = soil.cell[surface.column[press.vertex]];
     area += own, force += own * press.pressure;
   }
   return area > 0 && force > area * laws::punching_pressure(crust, std::sqrt(area / std::numbers::pi));

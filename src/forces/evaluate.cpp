@@ -50,7 +50,7 @@ Arrays arrays_of(state::Particles& p, state::Bonds& bonds, const state::MotionVi
           .held_pull = p.held_pull.data(),
           .rest = &field.soil.rest.data()->x,
           .plastic = field.soil.plastic.data(),
-          .area = field.soil.area.data(),
+          .area = field.soil.cell.data(),
           .first_slot = bonds.first.data(),
           .run = bonds.run.data(),
           .neighbour = bonds.neighbour.data(),

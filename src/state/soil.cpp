@@ -13,6 +13,26 @@ float vertex_area(const Surface& surface, std::uint32_t vertex) {
   return sum / 6;
 }
 
+float cell_area(const Surface& surface, std::uint32_t vertex) {
+  float sum = 0;
+  const Vec3 p = surface.position[vertex];
+  surface.mesh.for_each_outgoing(vertex, [&](std::uint32_t h) {
+    const Vec3 a = surface.position[surface.mesh.target(h)] - p;
+    const Vec3 b = surface.position[surface.mesh.origin(geometry::HalfEdgeMesh::prev(h))] - p;
+    const float twice = a.x * b.y - a.y * b.x, aa = a.x * a.x + a.y * a.y, bb = b.x * b.x + b.y * b.y,
+                ab = a.x * b.x + a.y * b.y;
+    if (!(twice > 0)) return;
+    const float at_a = aa - ab, at_b = bb - ab;  // each corner's cosine times its sides
+    if (ab < 0)
+      sum += twice / 4;
+    else if (at_a < 0 || at_b < 0)
+      sum += twice / 8;
+    else
+      sum += (aa * at_b + bb * at_a) / (8 * twice);  // each half edge times its distance from the circle's centre
+  });
+  return sum;
+}
+
 std::uint32_t touch_column(Surface& surface, Soil& soil, std::uint32_t vertex) {
   std::uint32_t& column = surface.column[vertex];
   if (column != kNone) return column;
@@ -24,6 +44,7 @@ std::uint32_t touch_column(Surface& surface, Soil& soil, std::uint32_t vertex) {
   soil.plastic.push_back(0);
   soil.shear.push_back({});
   soil.area.push_back(vertex_area(surface, vertex));
+  soil.cell.push_back(cell_area(surface, vertex));
   soil.gained.push_back(0);
   soil.compacted.push_back(0);
   soil.loose.push_back(0);

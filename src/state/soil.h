@@ -19,7 +19,8 @@ struct Soil {
   std::vector<float> plastic;           ///< [column] sinkage that load has made permanent, m: where Bekker's curve is
                                         ///< re-entered; negative: loose soil on top
   std::vector<Vec3> shear;              ///< [column] shear displacement j under the body that touches it, m; contact/
-  std::vector<float> area;              ///< [column] horizontal area it stands for, m^2
+  std::vector<float> area;              ///< [column] volume that it gains by the height it rises, m^2: vertex_area()
+  std::vector<float> cell;              ///< [column] horizontal area that loads and masses count with, m^2: cell_area()
 
   // The books of each column, in m^3 at the density of undisturbed soil. What the surface sinks in all is what all
   // columns were compacted by, since what one gains another gives.
@@ -39,7 +40,13 @@ struct Soil {
 /// The column under a vertex, made on first touch. [O(valence) then, O(1) later]
 std::uint32_t touch_column(Surface& surface, Soil& soil, std::uint32_t vertex);
 
-/// Horizontal area a vertex stands for: a third of its faces', m^2. [O(valence)]
+/// Volume that is gained under a vertex by the height it rises: a third of its faces' horizontal area, m^2.
+/// [O(valence)]
 float vertex_area(const Surface& surface, std::uint32_t vertex);
+
+/// Horizontal area of what is nearer to a vertex than to any other, m^2: on a square grid a square, whatever the
+/// diagonals, where vertex_area() alternates between 2/3 and 4/3 of it. Of a face with an obtuse corner that one gets
+/// half [Meyer et al. 2003]. [O(valence)]
+float cell_area(const Surface& surface, std::uint32_t vertex);
 
 }  // namespace divot::state

@@ -36,7 +36,7 @@ bool World::Impl::break_crusts() {
     if (particles.material[i] == material) continue;
     changed = true;
     particles.material[i] = material;
-    particles.mass[i] = media[material].areal_mass * soil.area[particles.column[i]];
+    particles.mass[i] = media[material].areal_mass * soil.cell[particles.column[i]];
   }
   broken.clear();
   return changed;
