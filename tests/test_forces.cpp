@@ -247,8 +247,7 @@ KernelResult run_kernel(Kernel* kernel, Tangle& t, Cohesion cohesion, float rate
 }
 
 TEST(ForcesKernel, AllGiveTheBitsOfThePlainOne) {
-  std::vector<Kernel*> kernels = {&baseline};
-  if (fastest() != &baseline) kernels.push_back(fastest());
+  const std::vector<Kernel*> kernels = forces::kernels();
   unsigned seed = 30;
   for (const bool mixed : {false, true})
     for (const auto& [m, n, bekker_n] : {std::tuple{2.0, 4.0, 1.0}, {6.0, 12.0, 1.1}, {2.0, 3.0, 0.5}})

@@ -227,20 +227,23 @@ TEST(NeighboursBlocks, RunsOfAGridAreFound) {
   test::Sheet s = test::make_sheet({.columns = 64, .rows = 64, .spacing = 1});
   update(s.particles, s.bonds, s.index, {1.6f, 0.1f, Neighbours::grid, {}}, true, Jobs(2));
   std::size_t runs = 0;
-  for (std::size_t slot = 0; slot < s.bonds.run.size(); ++slot) {
-    const std::uint32_t run = s.bonds.run[slot];
-    if (run == kNone) continue;
+  for (std::size_t slot = 0; slot < s.bonds.reads.size(); ++slot) {
+    const state::SlotReads& reads = s.bonds.reads[slot];
+    if (reads.run == kNone) continue;
     ++runs;
-    ASSERT_LE(run + state::Bonds::kLanes, s.particles.size());
+    ASSERT_LE(reads.run + state::Bonds::kLanes, s.particles.size());
+    if (reads.lanes != 0) {
+      ASSERT_LE(reads.other + state::Bonds::kLanes, s.particles.size());
+    }
     for (std::uint32_t lane = 0; lane < state::Bonds::kLanes; ++lane) {
       const std::size_t e = slot * state::Bonds::kLanes + lane;
       if (s.bonds.rest_length[e] >= 0) {
-        ASSERT_EQ(s.bonds.neighbour[e], run + lane);
+        ASSERT_EQ(s.bonds.neighbour[e], ((reads.lanes >> lane & 1) ? reads.other : reads.run) + lane);
       }
     }
   }
-  EXPECT_GT(runs, s.bonds.run.size() * 9 / 10);
-  EXPECT_LT(s.bonds.run.size(), 10.5 * 64 * 64 / state::Bonds::kLanes);
+  EXPECT_GT(runs, s.bonds.reads.size() * 95 / 100);
+  EXPECT_LT(s.bonds.reads.size(), 8.3 * 64 * 64 / state::Bonds::kLanes);
 }
 
 // Several media in a block are seen.

@@ -16,8 +16,8 @@ struct Settle {
   Moved moved;
   Scratch scratch;
   void operator()(Sheet& s, double time = 0) {
-    update(s.particles, s.soil, s.surface, blasts, bodies, s.media, stillness, {time, 1.0 / 60, 9.81}, moved, scratch,
-           Jobs(1));
+    update(s.particles, s.soil, s.surface, blasts, bodies, s.media, stillness, {time, 1.0 / 60, 9.81}, true, moved,
+           scratch, Jobs(1));
   }
 };
 

@@ -95,7 +95,7 @@ Push push_of(const state::Body& body, const Footing& f, const Contact& c, double
 Shear shear_of(const laws::Medium& medium, const Footing& f, const Contact& c, const std::array<double, 2>& slip,
                double dt) {
   const double j[2] = {dot(f.shear, c.tangent[0]) + dt * slip[0], dot(f.shear, c.tangent[1]) + dt * slip[1]};
-  const double size = std::hypot(j[0], j[1]), most = laws::kSlideShear * medium.shear_modulus;
+  const double size = std::sqrt(j[0] * j[0] + j[1] * j[1]), most = laws::kSlideShear * medium.shear_modulus;
   Shear shear;
   if (size <= 0) {
     shear.tangent = shear.secant = c.grip / medium.shear_modulus;

@@ -68,9 +68,9 @@ void meet_at(const Situation& s, double x, double y, Footing& f) {
 }
 
 std::vector<Footing>::iterator nearest_to(double x, double y, std::vector<Footing>& footings) {
-  return std::min_element(footings.begin(), footings.end(), [&](const Footing& a, const Footing& b) {
-    return std::hypot(a.x - x, a.y - y) < std::hypot(b.x - x, b.y - y);
-  });
+  const auto squared = [&](const Footing& f) { return (f.x - x) * (f.x - x) + (f.y - y) * (f.y - y); };
+  return std::min_element(footings.begin(), footings.end(),
+                          [&](const Footing& a, const Footing& b) { return squared(a) < squared(b); });
 }
 
 // A line of touch from above.

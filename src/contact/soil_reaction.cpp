@@ -106,28 +106,36 @@ struct Balance {
 };
 
 // Newton's method on a convex function: `missing` is its negative gradient, so a step that still goes downhill at its
-// end is taken whole, and one that overshoots is cut where the slope along it changes sign.
+// end is taken whole, and what was found there starts the next one; a step that overshoots is cut where the slope along
+// it changes sign. Speeds are found to a millionth of what moves ground by a spacing in a step.
 void find_balance(const Balance& balance, Row& v) {
-  const double still = 1e-9 * balance.s.surface.spacing / balance.s.dt;
+  const double still = 1e-6 * balance.s.surface.spacing / balance.s.dt;
+  Matrix6 a;
+  Row missing = balance.missing(v, &a);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    Matrix6 a;
-    Row step = balance.missing(v, &a);
-    const Row downhill = step;
+    const Row downhill = missing;
+    Row step = missing;
     solve(a, step);
     const double speed = std::sqrt(step[0] * step[0] + step[1] * step[1] + step[2] * step[2]) +
                          balance.body.radius * std::sqrt(step[3] * step[3] + step[4] * step[4] + step[5] * step[5]);
+    const Row whole = moved(v, step, 1);
+    // Newton's error falls with the square of the step: after one so small there is nothing left to find.
+    if (speed < still) {
+      v = whole;
+      break;
+    }
+    missing = balance.missing(whole, &a);
+    if (dot6(missing, step) >= -0.1 * dot6(downhill, step)) {
+      v = whole;
+      continue;
+    }
     double low = 0, high = 1;
-    const double slope = dot6(downhill, step);
-    if (dot6(balance.missing(moved(v, step, 1), nullptr), step) < -0.1 * slope) {
-      for (int i = 0; i < kHalvings; ++i) {
-        const double middle = 0.5 * (low + high);
-        (dot6(balance.missing(moved(v, step, middle), nullptr), step) > 0 ? low : high) = middle;
-      }
-    } else {
-      low = 1;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (dot6(balance.missing(moved(v, step, middle), nullptr), step) > 0 ? low : high) = middle;
     }
     v = moved(v, step, low > 0 ? low : high);
-    if (speed < still) break;
+    missing = balance.missing(v, &a);
   }
 }
 

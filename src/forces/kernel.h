@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "forces/terms.h"
+#include "state/slot_reads.h"
 
 namespace divot::forces {
 
@@ -15,7 +17,8 @@ struct Arrays {
   const std::uint32_t* column;
   float *fx, *fy, *fz, *held_pull;
   const float *rest, *plastic, *area;  ///< rest: x, y, z of each column in turn
-  const std::uint32_t *first_slot, *run, *neighbour;
+  const std::uint32_t *first_slot, *neighbour;
+  const state::SlotReads* reads;
   const std::uint8_t* medium;
   float* rest_length;
   const Terms* terms;  ///< [material]
@@ -31,9 +34,13 @@ using Kernel = void(const Arrays& arrays, std::size_t begin, std::size_t end);
 
 /// Particle by particle: blocks of several media, and the reference the other kernels are held against.
 Kernel plain;
-/// Eight at a time, for any processor and for those with AVX2. All give the same bits.
+/// Eight at a time, for any processor, for those with AVX2 and those with AVX-512. All give the same bits.
 Kernel baseline;
 Kernel avx2;
+Kernel avx512;
+
+/// Every kernel that this processor runs, the fastest first.
+std::vector<Kernel*> kernels();
 
 /// The fastest that this processor runs.
 Kernel* fastest();

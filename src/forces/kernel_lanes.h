@@ -9,12 +9,12 @@ using math::DIVOT_LANES::IntVector;
 using math::DIVOT_LANES::Lanes;
 using math::DIVOT_LANES::load;
 using math::DIVOT_LANES::Mask;
+using math::DIVOT_LANES::SlotReader;
 using math::DIVOT_LANES::store;
 
 constexpr std::uint32_t kLanes = Lanes::kCount;
 constexpr std::uint8_t kFree = 0, kAnchor = 2;  // of Hold
 constexpr std::uint8_t kSeveral = 0xff;         // of Bonds::medium
-constexpr std::uint32_t kNoRun = 0xffffffff;
 
 /// A block's own rows of an array; the last block may have fewer particles than lanes.
 struct Block {
@@ -38,15 +38,6 @@ struct Block {
   }
 };
 
-/// What a slot's neighbours have: side by side where they follow each other, else from all over.
-struct Neighbours {
-  std::uint32_t run;
-  const std::uint32_t* index;
-  DIVOT_INLINE Lanes operator()(const float* from) const {
-    return run != kNoRun ? load(from + run) : gather(from, index);
-  }
-};
-
 template <bool kRenew, bool kSoftened>
 DIVOT_INLINE Sum<Lanes> sum_bonds(const Arrays& a, std::size_t block, const Block& rows, const Terms& terms,
                                   const Reach& reach) {
@@ -56,21 +47,27 @@ DIVOT_INLINE Sum<Lanes> sum_bonds(const Arrays& a, std::size_t block, const Bloc
   const Lanes flow = kRenew && a.flowing ? rows.own(a.flow_rate) : zero;
   Sum<Lanes> sum{zero, zero, zero};
   for (std::uint32_t slot = a.first_slot[block]; slot < a.first_slot[block + 1]; ++slot) {
-    const Neighbours of{a.run[slot], a.neighbour + std::size_t{kLanes} * slot};
+    const state::SlotReads& reads = a.reads[slot];
+    const SlotReader of{reads.run, reads.other, reads.lanes, a.neighbour + std::size_t{kLanes} * slot};
     Pair<Lanes> pair;
-    pair.dx = x - of(a.x), pair.dy = y - of(a.y), pair.dz = z - of(a.z);
+    Lanes there, flow_there = zero;
+    of([&](auto read) DIVOT_INLINE_LAMBDA {
+      pair.dx = x - read(a.x), pair.dy = y - read(a.y), pair.dz = z - read(a.z);
+      pair.dvx = read(a.vx) - vx, pair.dvy = read(a.vy) - vy, pair.dvz = read(a.vz) - vz;
+      if constexpr (kRenew)
+        if (a.flowing) flow_there = read(a.flow_rate);
+      if constexpr (kSoftened) there = read(a.mass);
+    });
     pair.r_squared = squared_length(pair.dx, pair.dy, pair.dz);
     float* rest_length = a.rest_length + std::size_t{kLanes} * slot;
     Lanes r0 = load(rest_length);
     if constexpr (kRenew) {
-      const Lanes flow_there = a.flowing ? of(a.flow_rate) : zero;
       r0 = renewed(terms, reach, pair.r_squared, r0, both(flow <= zero, flow_there <= zero));
       store(rest_length, r0);
     }
-    pair.dvx = of(a.vx) - vx, pair.dvy = of(a.vy) - vy, pair.dvz = of(a.vz) - vz;
     Lanes softened(1.0f), damping(terms.medium.viscous_damping);
     if constexpr (kSoftened) {
-      const Lanes lighter = least(mass, of(a.mass));
+      const Lanes lighter = least(mass, there);
       softened = softening(terms, lighter), damping = softened_damping(terms, lighter);
     }
     add_bond(terms, reach, pair, r0, softened, damping, sum);

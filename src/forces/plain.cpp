@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "forces/kernel.h"
+#include "math/processor.h"
 #include "state/particles.h"
 
 namespace divot::forces {
@@ -56,11 +57,19 @@ void plain(const Arrays& a, std::size_t begin, std::size_t end) {
   }
 }
 
-Kernel* fastest() {
+std::vector<Kernel*> kernels() {
+  std::vector<Kernel*> list;
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) return &avx2;
+  if (math::has_avx512()) list.push_back(&avx512);
+  if (math::has_avx2()) list.push_back(&avx2);
 #endif
-  return &baseline;
+  list.push_back(&baseline), list.push_back(&plain);
+  return list;
+}
+
+Kernel* fastest() {
+  static Kernel* const kFastest = kernels().front();
+  return kFastest;
 }
 
 }  // namespace divot::forces

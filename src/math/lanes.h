@@ -46,6 +46,7 @@ struct Lanes {
 
 DIVOT_INLINE Lanes select(Mask condition, Lanes yes, Lanes no) { return condition.v ? yes.v : no.v; }
 DIVOT_INLINE Mask both(Mask a, Mask b) { return {a.v & b.v}; }
+DIVOT_INLINE Mask either(Mask a, Mask b) { return {a.v | b.v}; }
 DIVOT_INLINE bool any(Mask mask) {
 #ifdef __AVX__
   return _mm256_movemask_ps(reinterpret_cast<__m256>(mask.v)) != 0;
@@ -54,6 +55,13 @@ DIVOT_INLINE bool any(Mask mask) {
   for (int lane = 0; lane < 8; ++lane) found |= mask.v[lane] != 0;
   return found;
 #endif
+}
+
+/// Lanes whose bit is set.
+DIVOT_INLINE Mask mask_of(std::uint32_t bits) {
+  const auto all = static_cast<std::int32_t>(bits);
+  const IntVector bit{1, 2, 4, 8, 16, 32, 64, 128};
+  return {(IntVector{all, all, all, all, all, all, all, all} & bit) == bit};
 }
 
 DIVOT_INLINE Lanes least(Lanes a, Lanes b) {
@@ -107,5 +115,22 @@ DIVOT_INLINE Lanes gather(const float* from, const std::uint32_t* index) {
   return FloatVector{from[index[0]], from[index[1]], from[index[2]], from[index[3]],
                      from[index[4]], from[index[5]], from[index[6]], from[index[7]]};
 }
+
+/// What belongs to the eight particles of a slot, in any array; see state::SlotReads.
+struct SlotReader {
+  std::uint32_t run, other, lanes;
+  const std::uint32_t* index;
+
+  /// Calls f(read) with a read(array) for the way that this slot is read: one branch for any number of arrays.
+  template <class F>
+  DIVOT_INLINE void operator()(F f) const {
+    const std::uint32_t first = run, second = other;
+    const std::uint32_t* const from_all_over = index;
+    if (run == 0xffffffff) return f([=](const float* from) { return gather(from, from_all_over); });
+    if (lanes == 0) return f([=](const float* from) { return load(from + first); });
+    const Mask from_second = mask_of(lanes);
+    f([=](const float* from) { return select(from_second, load(from + second), load(from + first)); });
+  }
+};
 
 }  // namespace divot::math::DIVOT_LANES

@@ -11,6 +11,7 @@ namespace divot::math {
 
 /// For templates that lanes go through: what is not inlined takes its vectors through memory.
 #define DIVOT_INLINE [[gnu::always_inline]] inline
+#define DIVOT_INLINE_LAMBDA __attribute__((always_inline))
 
 inline float select(bool condition, float yes, float no) { return condition ? yes : no; }
 inline double select(bool condition, double yes, double no) { return condition ? yes : no; }

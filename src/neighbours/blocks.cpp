@@ -13,22 +13,20 @@ namespace {
 using state::Bonds;
 constexpr std::uint32_t kLanes = Bonds::kLanes;
 constexpr std::size_t kGrain = 256;
-// What a slot costs in the force kernel, when its neighbours follow each other and when they do not.
-constexpr std::uint32_t kRunCost = 2, kGatherCost = 5;
+// What a slot costs in the force kernel, when its neighbours lie in one run, in two, and when they do not.
+constexpr std::uint32_t kRunCost = 4, kTwoRunsCost = 5, kGatherCost = 10;
 
 // Eight rows, or what is left of them at the end.
 class Block {
  public:
-  Block(const geometry::Rows& rows, std::size_t block)
-      : begin_(block * kLanes), count_(static_cast<std::int64_t>(rows.count())) {
+  Block(const geometry::Rows& rows, std::size_t block) : begin_(block * kLanes), count_(rows.count()) {
     for (std::uint32_t lane = 0; lane < kLanes; ++lane)
       if (begin_ + lane < rows.count()) row_[lane] = rows.row(begin_ + lane);
   }
 
-  std::size_t own(std::uint32_t lane) const { return std::min(begin_ + lane, static_cast<std::size_t>(count_) - 1); }
+  std::size_t own(std::uint32_t lane) const { return std::min(begin_ + lane, count_ - 1); }
 
-  // Calls f(lanes' neighbours, kNone where there is none; first of the run or kNone) for each slot of the k-th
-  // neighbours.
+  // Calls f(lanes' neighbours, kNone where there is none; how they are read) for each slot of the k-th neighbours.
   template <class F>
   void for_each_kth(F f) const {
     std::size_t longest = 0;
@@ -36,7 +34,7 @@ class Block {
     for (std::size_t k = 0; k < longest; ++k) {
       std::array<std::uint32_t, kLanes> slot;
       for (std::uint32_t lane = 0; lane < kLanes; ++lane) slot[lane] = k < row_[lane].size() ? row_[lane][k] : kNone;
-      f(slot, run_of(slot));
+      f(slot, state::find_reads(slot, count_));
     }
   }
 
@@ -55,37 +53,24 @@ class Block {
         const bool alike = head[lane] < row_[lane].size() && step_of(row_[lane][head[lane]], lane) == step;
         slot[lane] = alike ? row_[lane][head[lane]++] : kNone;
       }
-      f(slot, run_of(slot));
+      f(slot, state::find_reads(slot, count_));
     }
   }
 
  private:
-  using Slot = std::array<std::uint32_t, kLanes>;
   std::int64_t step_of(std::uint32_t j, std::uint32_t lane) const {
     return static_cast<std::int64_t>(j) - static_cast<std::int64_t>(begin_ + lane);
   }
 
-  // A run may pass over lanes without a neighbour, but must not leave the arrays.
-  std::uint32_t run_of(const Slot& slot) const {
-    std::int64_t first = -1;
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      if (slot[lane] == kNone) continue;
-      const std::int64_t here = static_cast<std::int64_t>(slot[lane]) - lane;
-      if (here < 0 || (first >= 0 && first != here)) return kNone;
-      first = here;
-    }
-    return first >= 0 && first + kLanes <= count_ ? static_cast<std::uint32_t>(first) : kNone;
-  }
-
   std::size_t begin_;
-  std::int64_t count_;
+  std::size_t count_;
   std::array<std::span<const std::uint32_t>, kLanes> row_;
 };
 
 struct Cost {
   std::uint32_t slots = 0, cost = 0;
-  void operator()(const std::array<std::uint32_t, kLanes>&, std::uint32_t run) {
-    ++slots, cost += run != kNone ? kRunCost : kGatherCost;
+  void operator()(const std::array<std::uint32_t, kLanes>&, const state::SlotReads& reads) {
+    ++slots, cost += reads.run == kNone ? kGatherCost : reads.lanes == 0 ? kRunCost : kTwoRunsCost;
   }
 };
 
@@ -104,8 +89,8 @@ Layout cheapest(const Block& block) {
 void fill(const Block& block, bool alike, const std::vector<std::uint8_t>& material, std::uint32_t slot,
           std::uint8_t& medium, Bonds& bonds) {
   medium = material[block.own(0)];
-  const auto put = [&](const std::array<std::uint32_t, kLanes>& neighbours, std::uint32_t run) {
-    bonds.run[slot] = run;
+  const auto put = [&](const std::array<std::uint32_t, kLanes>& neighbours, const state::SlotReads& reads) {
+    bonds.reads[slot] = reads;
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
       const bool is_there = neighbours[lane] != kNone;
       const std::size_t entry = std::size_t{slot} * kLanes + lane;
@@ -140,7 +125,7 @@ void make_blocks(const geometry::Rows& rows, const std::vector<std::uint8_t>& ma
   bonds.first[0] = 0;
   for (std::size_t b = 0; b < blocks; ++b) bonds.first[b + 1] = bonds.first[b] + slots[b] / 2;
   const std::size_t slot_count = bonds.first[blocks];
-  bonds.run.resize(slot_count), bonds.medium.resize(blocks);
+  bonds.reads.resize(slot_count), bonds.medium.resize(blocks);
   bonds.neighbour.resize(slot_count * kLanes), bonds.rest_length.resize(slot_count * kLanes);
   const auto fill_all = [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b)

@@ -25,7 +25,7 @@ struct Flat {
 };
 double dot(Flat a, Flat b) { return a.x * b.x + a.y * b.y; }
 Flat unit(Flat a) {
-  const double l = std::hypot(a.x, a.y);
+  const double l = std::sqrt(dot(a, a));
   return l > 0 ? (1 / l) * a : Flat{};
 }
 
@@ -163,7 +163,7 @@ void find_beside(const Ground& ground, std::span<const std::uint32_t> carried, d
       ground.surface.mesh.for_each_neighbour(from.vertex, [&](std::uint32_t u) {
         if (!is_free(ground, u)) return;
         const Flat here = place_of(ground, from.vertex), edge = place_of(ground, u) - here;
-        const double distance = from.distance + std::hypot(edge.x, edge.y);
+        const double distance = from.distance + std::sqrt(dot(edge, edge));
         if (distance >= reach || has(ring, u) || has(previous, u)) return;
         const Flat rim = from.distance > 0 ? Flat{from.x, from.y} : here + 0.5 * edge;
         next.push_back({.vertex = u, .distance = distance, .x = rim.x, .y = rim.y});
@@ -245,6 +245,7 @@ void sort_by_body(const state::Particles& p, std::size_t body_count, FlowScratch
 
 void flow_aside(std::span<const state::Body> bodies, std::span<const laws::Medium> media, const Step& step,
                 Ground& ground, FlowScratch& scratch) {
+  if (bodies.empty()) return;
   sort_by_body(ground.particles, bodies.size(), scratch);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const std::span carried(scratch.carried.begin() + scratch.first[b], scratch.carried.begin() + scratch.first[b + 1]);

@@ -1,43 +1,14 @@
 #include "settle/settle.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 
 #include "settle/ejecta.h"
 
 namespace divot::settle {
 namespace {
 
-// Moves the surface with its particles and counts for how long each has been still: by its speed, or because it has not
-// come further than that speed would bring it. Far from the origin a creep can be too slow for a float to take a step.
-// What the ground loses by that has become denser; whatever goes elsewhere instead is taken from it later.
-void move_surface(const Stillness& stillness, Ground& ground, std::vector<double>& lost) {
-  state::Particles& p = ground.particles;
-  Moved& moved = ground.moved;
-  lost.assign(p.size(), 0);
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (p.hold[i] == Hold::anchor) continue;
-    const std::uint32_t vertex = p.vertex[i];
-    const Vec3 place = ground.surface.position[vertex];
-    // The border of the terrain, and of holes in it, stays where it is on the map.
-    if (ground.surface.mesh.is_boundary(vertex)) p.x[i] = place.x, p.y[i] = place.y;
-    const float step = length(p.position(i) - place);
-    const bool still = length(p.velocity(i)) < stillness.speed || step < stillness.step;
-    p.still_steps[i] = still ? static_cast<std::uint16_t>(std::min(p.still_steps[i] + 1, 0xffff)) : std::uint16_t{0};
-    if (step == 0) continue;
-    lost[i] = move_vertex(ground.surface, vertex, p.position(i));
-    ground.soil.compacted[p.column[i]] += lost[i];
-    // A blast loosens what it makes flow; any other load packs what lay loose.
-    float& loose = ground.soil.loose[p.column[i]];
-    const float sunk = place.z - p.z[i];
-    loose = std::max(0.0f, p.flow_rate[i] > 0 ? loose + std::abs(sunk) : loose - std::max(0.0f, sunk));
-    moved.vertices.push_back(vertex);
-    moved.distance = std::max(moved.distance, step);
-    if (p.hold[i] == Hold::free) moved.free_distance = std::max(moved.free_distance, step);
-  }
-}
-
-void throw_and_land(const std::vector<state::Blast>& blasts, std::span<double> lost, Ground& ground) {
+void throw_and_land(const std::vector<state::Blast>& blasts, std::span<float> lost, Ground& ground) {
   for (const state::Blast& blast : blasts) {
     if (!blast.active) continue;
     const double thrown = throw_soil(blast, ground.particles, lost, ground.soil);
@@ -64,31 +35,48 @@ void hand_over(const state::Particles& p, std::size_t i, state::Soil& soil) {
   soil.rest[column] = p.position(i);
 }
 
-}  // namespace
-
-void update(state::Particles& p, state::Soil& soil, state::Surface& surface, std::vector<state::Blast>& blasts,
-            std::span<const state::Body> bodies, std::span<const laws::Medium> media, const Stillness& stillness,
-            const Step& step, Moved& moved, Scratch& scratch, const Jobs& jobs) {
-  moved.vertices.clear();
-  moved.distance = moved.free_distance = 0;
-  Ground ground{p, soil, surface, moved};
-  move_surface(stillness, ground, scratch.lost);
-  throw_and_land(blasts, scratch.lost, ground);
-  flow_aside(bodies, media, step, ground, scratch.flow);
-
-  soil.restless.insert(soil.restless.end(), moved.vertices.begin(), moved.vertices.end());
+// Puts to sleep what has been still for long enough.
+void fall_asleep(const Stillness& stillness, state::Particles& p, state::Soil& soil) {
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (p.hold[i] != Hold::free) continue;
-    if (p.still_steps[i] < stillness.steps) continue;
+    if (p.hold[i] != Hold::free || p.still_steps[i] < stillness.steps) continue;
     p.hold[i] = Hold::asleep;
     p.flow_rate[i] = 0;
     p.set_velocity(i, {});
     hand_over(p, i, soil);
     soil.restless.push_back(p.vertex[i]);
   }
+}
+
+// Sorts what came to a list after its first `ascending` numbers, which are in order, into them.
+void merge_tail(std::vector<std::uint32_t>& list, std::size_t ascending, Scratch& scratch) {
+  if (list.size() == ascending) return;
+  const auto middle = list.begin() + static_cast<std::ptrdiff_t>(ascending);
+  scratch.tail.assign(middle, list.end());
+  scratch.set.sort_unique(scratch.tail);
+  scratch.merged.clear();
+  std::set_union(list.begin(), middle, scratch.tail.begin(), scratch.tail.end(), std::back_inserter(scratch.merged));
+  list.swap(scratch.merged);
+}
+
+}  // namespace
+
+void update(state::Particles& p, state::Soil& soil, state::Surface& surface, std::vector<state::Blast>& blasts,
+            std::span<const state::Body> bodies, std::span<const laws::Medium> media, const Stillness& stillness,
+            const Step& step, bool particles_changed, Moved& moved, Scratch& scratch, const Jobs& jobs) {
+  moved.vertices.clear();
+  Ground ground{p, soil, surface, moved};
+  follow(stillness, particles_changed, ground, scratch.follow, jobs);
+  const std::size_t followed = moved.vertices.size();
+  throw_and_land(blasts, scratch.follow.lost, ground);
+  flow_aside(bodies, media, step, ground, scratch.flow);
+
+  const auto brought = moved.vertices.begin() + static_cast<std::ptrdiff_t>(followed);
+  soil.restless.insert(soil.restless.end(), brought, moved.vertices.end());
+  add_restless(sliding_slopes(media, step.gravity), ground, scratch.follow, jobs, soil.restless);
+  if (scratch.follow.sleepy) fall_asleep(stillness, p, soil);
   scratch.set.sort_unique(soil.restless);
   slump(ground, media, step.gravity, step.dt, scratch.slump, jobs);
-  scratch.set.sort_unique(moved.vertices);
+  merge_tail(moved.vertices, followed, scratch);
   for (state::Blast& blast : blasts) blast.active = blast.active && still_acts(blast, p, soil, step.time);
 }
 

@@ -26,6 +26,9 @@ constexpr double kThinnest = 1e-3;
 constexpr double kSameExcess = 0.01;
 constexpr std::size_t kGrain = 256;
 
+// Whether ground that stands so high, m, stands for a while and then slides.
+bool is_cohesive(double stands) { return stands > 0 && stands < kStandsForEver; }
+
 struct Corner {
   std::uint32_t vertex;
   Vec3d now, then;  // m: position, and before the first touch
@@ -47,11 +50,7 @@ struct Site {
   const laws::Medium& medium(std::uint32_t vertex) const { return media[ground.surface.material[vertex]]; }
   // Height up to which the soil there stands vertically, m.
   double stands_to(std::uint32_t vertex) const { return stands[ground.surface.material[vertex]]; }
-  // Whether it stands for a while and then slides.
-  bool is_cohesive(std::uint32_t vertex) const {
-    const double height = stands_to(vertex);
-    return height > 0 && height < kStandsForEver;
-  }
+  bool has_cohesion(std::uint32_t vertex) const { return is_cohesive(stands_to(vertex)); }
 
   // A body has it, a blast makes it flow, or it moves as fast as what slides.
   bool is_held(std::uint32_t vertex) const {
@@ -103,13 +102,15 @@ struct LeastSlopes {
   double edge = 0;  // of an edge down which cohesive ground falls beyond the slope of rest
 };
 
-LeastSlopes least_slopes(const Site& site) {
-  constexpr double kMargin = 1 - 1e-6, kNever = 1e9;
+constexpr double kNever = 1e9;
+
+LeastSlopes least_slopes(std::span<const laws::Medium> media, double gravity) {
+  constexpr double kMargin = 1 - 1e-6;
   LeastSlopes least{kNever, kNever};
-  for (std::size_t m = 0; m < site.media.size(); ++m) {
-    const double repose = site.media[m].tan_repose;
+  for (const laws::Medium& medium : media) {
+    const double repose = medium.tan_repose;
     least.face = std::min(least.face, kMargin * (repose + kAtRest));
-    if (site.stands[m] > 0 && site.stands[m] < kStandsForEver) least.edge = std::min(least.edge, kMargin * repose);
+    if (is_cohesive(laws::critical_height(medium, gravity))) least.edge = std::min(least.edge, kMargin * repose);
   }
   return least;
 }
@@ -223,7 +224,7 @@ void look_round_restless(const Site& site, const LeastSlopes& least, SlumpScratc
 // Brings `soil.excess` up to date at and round the restless ground where it has cohesion; `next` gets what changed.
 void update_excess(Ground& ground, const Site& site, SlumpScratch& scratch, const Jobs& jobs) {
   const auto add = [&](std::uint32_t vertex) {
-    if (site.is_cohesive(vertex)) scratch.set.insert(vertex);
+    if (site.has_cohesion(vertex)) scratch.set.insert(vertex);
   };
   for (std::size_t k = 0; k < ground.soil.restless.size(); ++k) {
     if (!(scratch.round[k] & kSteepEdge)) continue;
@@ -293,13 +294,21 @@ int plan_sweeps(const std::vector<Slide>& slides, double dt) {
 
 }  // namespace
 
+Slopes sliding_slopes(std::span<const laws::Medium> media, double gravity) {
+  if (!(gravity > 0)) return {static_cast<float>(kNever), static_cast<float>(kNever), false};
+  constexpr double kRoundedMargin = 0.999;
+  const LeastSlopes least = least_slopes(media, gravity);
+  const auto squared = [](double slope) { return static_cast<float>(kRoundedMargin * slope * slope); };
+  return {squared(least.face), squared(least.edge), least.edge < kNever};
+}
+
 void slump(Ground& ground, std::span<const laws::Medium> media, double gravity, double dt, SlumpScratch& scratch,
            const Jobs& jobs) {
   if (!(gravity > 0)) return ground.soil.restless.clear();
   scratch.stands.clear();
   for (const laws::Medium& medium : media) scratch.stands.push_back(laws::critical_height(medium, gravity));
   const Site site{ground, media, scratch.stands, gravity};
-  const LeastSlopes least = least_slopes(site);
+  const LeastSlopes least = least_slopes(media, gravity);
   int sweeps = 1;
   for (int sweep = 0; sweep < sweeps && !ground.soil.restless.empty(); ++sweep) {
     scratch.next.clear();

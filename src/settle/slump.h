@@ -9,6 +9,7 @@
 #include "divot/jobs.h"
 #include "laws/medium.h"
 #include "settle/ground.h"
+#include "settle/ring_terms.h"
 
 namespace divot::settle {
 
@@ -33,6 +34,9 @@ struct SlumpScratch {
   std::vector<double> inflow;        ///< [vertices] m^3
   std::vector<float> excess;         ///< [vertices] m
 };
+
+/// Slopes below which nothing is steep, squared: the least of all soils, with a margin for floats.
+Slopes sliding_slopes(std::span<const laws::Medium> media, double gravity);
 
 /// Ground that was disturbed and is steeper than it can rest slides, for `dt` seconds: loose soil down to its angle of
 /// repose, intact soil no further than it stood before, cohesive soil until the steep part is no higher than it can

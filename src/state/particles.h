@@ -7,6 +7,7 @@
 #include "divot/ids.h"
 #include "divot/vec.h"
 #include "divot/views.h"
+#include "state/slot_reads.h"
 
 namespace divot::state {
 
@@ -46,15 +47,15 @@ struct Particles {
 /// follow each other are a block; it lies in memory slot by slot, a slot holding one neighbour of each of the eight.
 /// Neighbours of a row ascend from slot to slot.
 struct Bonds {
-  static constexpr std::uint32_t kLanes = 8;
+  static constexpr std::uint32_t kLanes = SlotReads::kLanes;
   static constexpr std::uint8_t kSeveral = 0xff;
 
   std::size_t count = 0;                 ///< particles; neighbours/, as are the next four
   std::vector<std::uint32_t> first;      ///< [block + 1] its first slot
   std::vector<std::uint32_t> neighbour;  ///< [slot][lane] particle; that of the lane itself where it has none
-  std::vector<std::uint32_t> run;    ///< [slot] the neighbour of lane 0 where lane k has the k-th after it, else kNone
-  std::vector<std::uint8_t> medium;  ///< [block] that all particles and neighbours have in common, or kSeveral
-  std::vector<float> rest_length;    ///< [slot][lane] m, 0 while the two are out of range, -1: no pair; forces/
+  std::vector<SlotReads> reads;          ///< [slot] how its neighbours are found
+  std::vector<std::uint8_t> medium;      ///< [block] that all particles and neighbours have in common, or kSeveral
+  std::vector<float> rest_length;        ///< [slot][lane] m, 0 while the two are out of range, -1: no pair; forces/
 
   std::size_t block_count() const { return first.empty() ? 0 : first.size() - 1; }
   /// Calls f(entry) for each neighbour of particle i, ascending: an index of `neighbour` and `rest_length`.

@@ -200,14 +200,15 @@ void World::Impl::move_particles(bool particles_changed, StepReport& report) {
   }
 }
 
-void World::Impl::settle_ground() {
+void World::Impl::settle_ground(bool particles_changed) {
   timed(Stage::settle, [&] {
     const double speed = kStillSpeed * surface.spacing;
     const settle::Stillness stillness{
         static_cast<float>(speed), static_cast<float>(speed * scene.dt),
         static_cast<std::uint16_t>(std::clamp(std::ceil(kStillTime / scene.dt), 2.0, 60000.0))};
     const settle::Step step{time() + scene.dt, scene.dt, -scene.gravity.z};
-    settle::update(particles, soil, surface, blasts, bodies, media, stillness, step, moved, settle_scratch, *jobs);
+    settle::update(particles, soil, surface, blasts, bodies, media, stillness, step, particles_changed, moved,
+                   settle_scratch, *jobs);
     std::uint32_t last = kNone;
     for (const std::uint32_t vertex : moved.vertices) {
       if (vertex / kDirtyChunk == last) continue;

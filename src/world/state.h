@@ -85,7 +85,7 @@ struct World::Impl {
   bool break_crusts();  ///< true where particles are of another material now
   void find_neighbours(bool particles_changed);
   void move_particles(bool particles_changed, StepReport& report);
-  void settle_ground();
+  void settle_ground(bool particles_changed);
   void refit_tree();
 };
 

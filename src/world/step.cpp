@@ -9,7 +9,7 @@ StepReport World::step() {
   w.move_bodies(report);
   const bool particles_changed = w.wake_and_sleep();
   w.move_particles(particles_changed, report);
-  w.settle_ground();
+  w.settle_ground(particles_changed);
   w.refit_tree();
   ++w.step_count;
   return report;
