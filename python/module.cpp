@@ -177,10 +177,12 @@ py::dict particles_of(py::object self) {
 
 void bind_world(py::module_& m) {
   py::class_<World>(m, "World")
-      .def(py::init([](const Scene& scene, int threads) {
-             return value_of(World::create(scene, std::make_shared<const Jobs>(threads)));
+      .def(py::init([](const Scene& scene, int threads, const std::optional<py::bytes>& state) {
+             auto jobs = std::make_shared<const Jobs>(threads);
+             return value_of(state ? World::restore(std::string(*state), scene, jobs) : World::create(scene, jobs));
            }),
-           py::arg("scene"), py::arg("threads") = 1)
+           py::arg("scene"), py::arg("threads") = 1, py::arg("state") = py::none())
+      .def("save", [](const World& w) { return py::bytes(w.save()); })
       .def("step", &step, py::arg("count") = 1, py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("time", &World::time)
       .def_property_readonly("steps", &World::steps)

@@ -25,8 +25,8 @@ Override split_override(const std::string& text) {
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
-void add_scene(CLI::App& command, SceneOptions& scene) {
-  command.add_option("SCENE", scene.path, "scene file (TOML)")->required()->type_name("");
+CLI::Option* add_scene(CLI::App& command, SceneOptions& scene) {
+  CLI::Option* path = command.add_option("SCENE", scene.path, "scene file (TOML)")->required()->type_name("");
   command
       .add_option_function<std::vector<std::string>>(
           "--set",
@@ -36,6 +36,7 @@ void add_scene(CLI::App& command, SceneOptions& scene) {
           "change a key of the scene, as bodies.0.mass=500; may be repeated")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
+  return path;
 }
 
 void add_threads(CLI::App& command, SceneOptions& scene) {
@@ -48,12 +49,30 @@ CLI::Option* add_out(CLI::App& command, std::string& out, const char* what) {
   return command.add_option("--out", out, what)->type_name("DIR");
 }
 
+double above_zero(const char* option, double number) {
+  if (!(number > 0)) throw CLI::ValidationError(option, fmt::format("{:g} is not above 0", number));
+  return number;
+}
+
 void add_run(CLI::App& app, RunOptions& options) {
   CLI::App& command = *app.add_subcommand("run", "Simulate a scene and write what came of it");
-  add_scene(command, options.scene);
-  add_out(command, options.out, "folder for results (default: out/NAME)");
+  CLI::Option* scene = add_scene(command, options.scene)->required(false);
+  add_out(command, options.out, "folder for results (default: out/NAME, or that of the checkpoint)");
   command.add_option("--duration", options.scene.duration, "simulated time instead of the scene's, s")->type_name("S");
   add_threads(command, options.scene);
+  command
+      .add_option_function<double>(
+          "--checkpoint-every",
+          [&options](double every) { options.checkpoint_every = above_zero("--checkpoint-every", every); },
+          "put the run aside as checkpoint.divot each so many simulated seconds")
+      ->type_name("S");
+  const CLI::Option* resume = command
+                                  .add_option("--resume", options.resume,
+                                              "go on from a checkpoint; SCENE only where the scene's file has moved")
+                                  ->type_name("FILE");
+  command.parse_complete_callback([scene, resume] {
+    if (scene->empty() && resume->empty()) throw CLI::RequiredError("SCENE");
+  });
   command.add_flag("--report", options.report,
                    "also write report.html: the run to look at in a browser, without network");
   command.add_flag("--quiet", options.quiet, "print nothing but errors");
@@ -114,11 +133,6 @@ viewer::Camera read_camera(const std::string& text) {
   viewer::Camera camera{.eye = {n[0], n[1], n[2]}, .target = {n[3], n[4], n[5]}};
   if (n.size() == 7) camera.fov_deg = n[6];
   return camera;
-}
-
-double above_zero(const char* option, double number) {
-  if (!(number > 0)) throw CLI::ValidationError(option, fmt::format("{:g} is not above 0", number));
-  return number;
 }
 
 void add_color(CLI::App& command, viewer::ColorBy& color) {

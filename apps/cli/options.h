@@ -25,8 +25,10 @@ struct SceneOptions {
 
 struct RunOptions {
   SceneOptions scene;
-  std::string out;      ///< folder for results; empty: out/NAME
-  bool report = false;  ///< also report.html
+  std::string out;              ///< folder for results; empty: out/NAME
+  std::string resume;           ///< checkpoint to go on from; empty: from the start
+  double checkpoint_every = 0;  ///< s of simulated time; 0: never
+  bool report = false;          ///< also report.html
   bool quiet = false;
 };
 

@@ -26,91 +26,146 @@ class Rhythm {
   Rhythm(double every, double dt) : every_(every), tolerance_(0.5 * dt) {}
   bool is_due(double time) {
     if (every_ <= 0 || time + tolerance_ < next_ * every_) return false;
-    next_ = std::floor((time + tolerance_) / every_) + 1;
+    skip_to(time);
     return true;
   }
+  // What was due until `time` has been done.
+  void skip_to(double time) { next_ = std::floor((time + tolerance_) / every_) + 1; }
 
  private:
   double every_, tolerance_, next_ = 0;
 };
 
+// A run from its start or from where it was put aside.
+struct Begun {
+  World world;
+  Recorder recorder;
+  SceneFile scene;
+  RunTotals totals;
+  std::string folder;
+  bool resumed = false;
+};
+
 // A world on its way to the end, with what it writes as it goes.
 class Run {
  public:
-  Run(World& world, Recorder& recorder, Report* report)
-      : world_(world),
-        recorder_(recorder),
+  Run(Begun& begun, Report* report, double checkpoint_every)
+      : begun_(begun),
         report_(report),
-        frames_(world.scene().output.every, world.scene().dt),
-        bodies_(world.scene().output.every > 0 ? world.scene().output.every : kBodiesEvery, world.scene().dt),
-        report_times_(world.scene().duration / kReportTimes, world.scene().dt) {}
+        checkpoint_every_(checkpoint_every),
+        frames_(settings().output.every, settings().dt),
+        bodies_(settings().output.every > 0 ? settings().output.every : kBodiesEvery, settings().dt),
+        report_times_(settings().duration / kReportTimes, settings().dt),
+        checkpoints_(checkpoint_every, settings().dt) {
+    checkpoints_.skip_to(begun.world.time());
+    if (begun.resumed) frames_.skip_to(begun.world.time()), bodies_.skip_to(begun.world.time());
+  }
 
-  Result<RunTotals> go(bool show_progress);
+  Result<void> go(bool show_progress);
 
  private:
+  const Scene& settings() const { return begun_.world.scene(); }
   Result<void> record();
+  Result<void> put_aside();
   void step();
 
-  World& world_;
-  Recorder& recorder_;
+  Begun& begun_;
   Report* report_;  // null: none
-  Rhythm frames_, bodies_, report_times_;
-  bool has_row_ = false;  // bodies.csv holds the bodies as they are now
-  RunTotals totals_;
+  double checkpoint_every_;
+  Rhythm frames_, bodies_, report_times_, checkpoints_;
+  std::chrono::steady_clock::time_point since_ = std::chrono::steady_clock::now();
 };
 
 Result<void> Run::record() {
-  has_row_ = bodies_.is_due(world_.time());
-  if (has_row_) recorder_.add_bodies(world_);
-  if (report_ != nullptr && report_times_.is_due(world_.time())) report_->add(world_);
-  if (frames_.is_due(world_.time())) return recorder_.write_frame(world_);
+  const double time = begun_.world.time();
+  if (bodies_.is_due(time)) begun_.recorder.add_bodies(begun_.world);
+  if (report_ != nullptr && report_times_.is_due(time)) report_->add(begun_.world);
+  if (frames_.is_due(time))
+    if (auto written = begun_.recorder.write_frame(begun_.world); !written) return written;
+  if (checkpoints_.is_due(time)) return put_aside();
   return {};
 }
 
-void Run::step() {
-  const StepReport report = world_.step();
-  totals_.substeps_limited += report.substeps_limited;
-  totals_.not_finite += report.not_finite;
+Result<void> Run::put_aside() {
+  const auto now = std::chrono::steady_clock::now();
+  begun_.totals.wall_s += std::chrono::duration<double>(now - since_).count();
+  since_ = now;
+  return begun_.recorder.write_checkpoint(begun_.world, begun_.totals, begun_.scene);
 }
 
-Result<RunTotals> Run::go(bool show_progress) {
-  const std::uint64_t steps = step_count(world_.scene());
-  Progress progress(world_.scene().duration, show_progress);
-  const auto start = std::chrono::steady_clock::now();
-  if (const auto written = record(); !written) return tl::unexpected(written.error());
-  while (world_.steps() < steps && !interrupted()) {
+void Run::step() {
+  const StepReport report = begun_.world.step();
+  begun_.totals.substeps_limited += report.substeps_limited;
+  begun_.totals.not_finite += report.not_finite;
+}
+
+Result<void> Run::go(bool show_progress) {
+  const std::uint64_t steps = step_count(settings());
+  Progress progress(settings().duration, show_progress);
+  if (const auto written = record(); !written) return written;
+  while (begun_.world.steps() < steps && !interrupted()) {
     step();
-    if (const auto written = record(); !written) return tl::unexpected(written.error());
-    progress.update(world_.time());
+    if (const auto written = record(); !written) return written;
+    progress.update(begun_.world.time());
   }
-  if (!has_row_) recorder_.add_bodies(world_);
-  totals_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  totals_.interrupted = world_.steps() < steps;
-  return totals_;
+  begun_.totals.wall_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - since_).count();
+  since_ = std::chrono::steady_clock::now();
+  begun_.totals.interrupted = begun_.world.steps() < steps;
+  if (begun_.totals.interrupted && checkpoint_every_ > 0) return put_aside();
+  return {};
+}
+
+tl::expected<Begun, int> begin(const RunOptions& options) {
+  auto world = open_world(options.scene);
+  if (!world) return tl::unexpected(report(world.error(), kBadInput));
+  const std::string folder = results_folder(options.out, world->scene());
+  auto recorder = Recorder::create(folder);
+  if (!recorder) return tl::unexpected(report(recorder.error(), kFailed));
+  return Begun{std::move(*world), std::move(*recorder), scene_file(options.scene), {}, folder};
+}
+
+// What the command line says comes on top of what it said when the run began.
+SceneOptions scene_of(const Checkpoint& checkpoint, SceneOptions options) {
+  if (options.path.empty()) options.path = checkpoint.scene.path;
+  options.overrides.insert(options.overrides.begin(), checkpoint.scene.overrides.begin(),
+                           checkpoint.scene.overrides.end());
+  return options;
+}
+
+tl::expected<Begun, int> resume(const RunOptions& options) {
+  const auto checkpoint = read_checkpoint(options.resume);
+  if (!checkpoint) return tl::unexpected(report(checkpoint.error(), kBadInput));
+  const SceneOptions scene = scene_of(*checkpoint, options.scene);
+  auto world = reopen_world(scene, *checkpoint, options.resume);
+  if (!world) return tl::unexpected(report(world.error(), kBadInput));
+  const std::string beside = std::filesystem::path(options.resume).parent_path().string();
+  const std::string folder = !options.out.empty() ? options.out : beside.empty() ? "." : beside;
+  auto recorder = Recorder::resume(folder, *checkpoint);
+  if (!recorder) return tl::unexpected(report(recorder.error(), kFailed));
+  return Begun{std::move(*world), std::move(*recorder), scene_file(scene), checkpoint->totals, folder, true};
 }
 
 }  // namespace
 
 int run(const RunOptions& options) {
-  auto world = open_world(options.scene);
-  if (!world) return report(world.error(), kBadInput);
+  auto begun = options.resume.empty() ? begin(options) : resume(options);
+  if (!begun) return begun.error();
   catch_interrupts();
-  const std::string folder = results_folder(options.out, world->scene());
-  auto recorder = Recorder::create(folder);
-  if (!recorder) return report(recorder.error(), kFailed);
+  const World& world = begun->world;
+  const RunTotals& totals = begun->totals;
 
-  Report page(options.report ? scene_text(options.scene) : std::string());
-  const auto totals = Run(*world, *recorder, options.report ? &page : nullptr).go(!options.quiet);
-  if (!totals) return report(totals.error(), kFailed);
+  Report page(options.report ? scene_text(begun->scene) : std::string());
+  const auto went = Run(*begun, options.report ? &page : nullptr, options.checkpoint_every).go(!options.quiet);
+  if (!went) return report(went.error(), kFailed);
   if (options.report) {
-    const std::string path = (std::filesystem::path(folder) / "report.html").string();
-    if (const auto written = page.write(path, *world, *totals); !written) return report(written.error(), kFailed);
+    const std::string path = (std::filesystem::path(begun->folder) / "report.html").string();
+    if (const auto written = page.write(path, world, totals); !written) return report(written.error(), kFailed);
   }
-  if (const auto written = recorder->finish(*world, *totals); !written) return report(written.error(), kFailed);
-  if (!options.quiet) fmt::print("{}", run_summary(*world, *totals, folder));
-  if (!totals->interrupted) return kDone;
-  fmt::print(stderr, "interrupted at {:.2f} of {:g} s; the results are those of the time reached\n", world->time(),
-             world->scene().duration);
+  if (const auto written = begun->recorder.finish(world, totals); !written) return report(written.error(), kFailed);
+  if (!options.quiet) fmt::print("{}", run_summary(world, totals, begun->folder));
+  if (!totals.interrupted) return kDone;
+  fmt::print(stderr, "interrupted at {:.2f} of {:g} s; the results are those of the time reached\n", world.time(),
+             world.scene().duration);
   return kFailed;
 }
 

@@ -13,6 +13,14 @@ namespace {
 // --duration is an override like those of --set, but its errors are to name what was typed.
 constexpr const char* kDurationSource = "--set duration";
 
+// Errors that know of no file are about `file`.
+Result<World> named(Result<World> world, const std::string& file) {
+  if (world) return world;
+  for (Error& error : world.error())
+    if (error.file.empty()) error.file = file;
+  return world;
+}
+
 }  // namespace
 
 Result<Scene> load(const SceneOptions& options) {
@@ -26,23 +34,31 @@ Result<Scene> load(const SceneOptions& options) {
   return tl::unexpected(std::move(errors));
 }
 
-std::string scene_text(const SceneOptions& options) {
-  std::ifstream in(options.path, std::ios::binary);
+SceneFile scene_file(const SceneOptions& options) {
+  SceneFile scene{std::filesystem::absolute(options.path).string(), options.overrides};
+  if (!options.duration.empty()) scene.overrides.push_back({"duration", options.duration});
+  return scene;
+}
+
+std::string scene_text(const SceneFile& scene) {
+  std::ifstream in(scene.path, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(in), {});
-  for (const Override& change : options.overrides) text += fmt::format("\n# --set {}={}", change.key, change.value);
-  if (!options.duration.empty()) text += fmt::format("\n# --duration {}", options.duration);
+  for (const Override& change : scene.overrides) text += fmt::format("\n# --set {}={}", change.key, change.value);
   return text;
 }
 
 Result<World> open_world(const SceneOptions& options) {
   const auto scene = load(options);
   if (!scene) return tl::unexpected(scene.error());
-  auto world = World::create(*scene, std::make_shared<const Jobs>(options.threads));
-  if (world) return world;
-  Errors errors = std::move(world.error());
-  for (Error& error : errors)
-    if (error.file.empty()) error.file = options.path;
-  return tl::unexpected(std::move(errors));
+  return named(World::create(*scene, std::make_shared<const Jobs>(options.threads)), options.path);
+}
+
+Result<World> reopen_world(const SceneOptions& options, const Checkpoint& checkpoint,
+                           const std::string& checkpoint_file) {
+  const auto scene = load(options);
+  if (!scene) return tl::unexpected(scene.error());
+  return named(World::restore(checkpoint.world, *scene, std::make_shared<const Jobs>(options.threads)),
+               checkpoint_file);
 }
 
 std::uint64_t step_count(const Scene& scene) {

@@ -3,18 +3,26 @@
 #include <string>
 
 #include "cli/options.h"
+#include "divot/output.h"
 #include "divot/world.h"
 
 namespace divot::cli {
 
-/// A scene's file as it stands, with what the command line changes as comments below it.
-std::string scene_text(const SceneOptions& options);
+/// The scene's file, by its absolute path, and all that the command line changes.
+SceneFile scene_file(const SceneOptions& options);
+
+/// A scene's file as it stands, with what changes it as comments below it.
+std::string scene_text(const SceneFile& scene);
 
 /// The scene of a file, changed as the command line asks. Errors name the file or the option they came from.
 Result<Scene> load(const SceneOptions& options);
 
 /// The world of a scene file, changed as the command line asks. Errors name the file or the option they came from.
 Result<World> open_world(const SceneOptions& options);
+
+/// The same world where a run of it was put aside. Errors of the bytes name `checkpoint_file`.
+Result<World> reopen_world(const SceneOptions& options, const Checkpoint& checkpoint,
+                           const std::string& checkpoint_file);
 
 /// Steps from the start to the scene's end.
 std::uint64_t step_count(const Scene& scene);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "divot/errors.h"
 #include "divot/world.h"
@@ -17,6 +18,28 @@ struct RunTotals {
   bool interrupted = false;            ///< stopped before its time
 };
 
+/// A scene file and how it was changed.
+struct SceneFile {
+  std::string path;                 ///< of the file
+  std::vector<Override> overrides;  ///< in order
+};
+
+/// A run put aside: what it takes to go on as if it had never stopped.
+struct Checkpoint {
+  SceneFile scene;    ///< what the world came from
+  RunTotals totals;   ///< so far
+  std::string world;  ///< of World::save()
+  std::string files;  ///< what a Recorder had written: its own bytes
+};
+
+/// Writes a checkpoint, with a version and a checksum, under its name when it is complete or not at all. Fails with the
+/// system's reason.
+Result<void> write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
+
+/// Reads one. Fails on a file that is no checkpoint, of another version, cut short or damaged, before memory is taken
+/// for what it does not hold.
+Result<Checkpoint> read_checkpoint(const std::string& path);
+
 /// Writes the files of a run into one folder and nowhere else. Each appears under its name when it is complete, or not
 /// at all. The ground is copied and written by a thread of the recorder's own, so that stepping does not wait for the
 /// disk unless more than 512 MB wait for it. After the first file that cannot be written there are no more; those
@@ -25,6 +48,10 @@ class Recorder {
  public:
   /// Makes `folder`, with those above it, and starts `bodies.csv` in it. Fails with the system's reason.
   static Result<Recorder> create(const std::string& folder);
+
+  /// Goes on in `folder` where the recorder of a run put aside was: with its rows of `bodies.csv` and the numbers of
+  /// its frames. Fails likewise, and on a checkpoint that holds something else.
+  static Result<Recorder> resume(const std::string& folder, const Checkpoint& checkpoint);
 
   Recorder(Recorder&&) noexcept;             ///< nothing is written twice
   Recorder& operator=(Recorder&&) noexcept;  ///< likewise
@@ -38,9 +65,13 @@ class Recorder {
   /// so far that could not be written: of this frame or one before. [O(vertices)]
   Result<void> write_frame(const World& world);
 
-  /// What every run leaves: `summary.json`, `bodies.csv`, `terrain_final.ply`, `terrain_final.tif` for terrain made
-  /// from a grid or a DEM, and `terrain_final` in the scene's other formats. Waits until all is written; fails with the
-  /// first file that could not be. The recorder is done then. [O(vertices)]
+  /// Puts the run aside as `checkpoint.divot`, in place of the one before, once all frames so far are written. Fails
+  /// with the first file so far that could not be written. [O(touched vertices + rows of bodies.csv)]
+  Result<void> write_checkpoint(const World& world, const RunTotals& totals, const SceneFile& scene);
+
+  /// What every run leaves: `summary.json`, `bodies.csv` up to the bodies as they are now, `terrain_final.ply`,
+  /// `terrain_final.tif` for terrain made from a grid or a DEM, and `terrain_final` in the scene's other formats. Waits
+  /// until all is written; fails with the first file that could not be. The recorder is done then. [O(vertices)]
   Result<void> finish(const World& world, const RunTotals& totals);
 
  private:

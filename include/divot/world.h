@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -86,6 +87,16 @@ class World {
   /// Loads the terrain and places what the scene holds. Fails with everything that is wrong with the scene or its
   /// files.
   static Result<World> create(const Scene& scene, std::shared_ptr<const Jobs> jobs = nullptr);
+
+  /// Everything that decides how the world goes on, as bytes. Their size follows what was ever touched and what is
+  /// awake, never the size of the terrain. [O(touched vertices)]
+  std::string save() const;
+
+  /// A world as it was when save() gave `bytes`: from here on both go through the same bits. `scene`: the one that it
+  /// was created from; its `duration` and `output` may differ. Fails where the scene or its files are others and where
+  /// the bytes are damaged, which takes no more memory than a world whose state they could be. With
+  /// UpdatePolicy::Kind::every, whose boxes miss what moved since the last rebuild, they miss less after it.
+  static Result<World> restore(std::string_view bytes, const Scene& scene, std::shared_ptr<const Jobs> jobs = nullptr);
 
   World(World&&) noexcept;             ///< views stay valid
   World& operator=(World&&) noexcept;  ///< likewise

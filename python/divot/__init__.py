@@ -55,16 +55,17 @@ def scene(settings, folder="."):
 
 class World(_divot.World):
     """Ground, bodies and bombs that move together. `scene`: a dict, a path or a Scene. `threads`: 0 takes all cores;
-    results do not depend on it. `changes` go on top of a scene file. Raises Error."""
+    results do not depend on it. `changes` go on top of a scene file. `state`: what save() gave of a world of that scene,
+    which goes on from there with the same bits. Raises Error."""
 
-    def __init__(self, scene, threads=1, changes=None):
+    def __init__(self, scene, threads=1, changes=None, state=None):
         if isinstance(scene, (str, os.PathLike)):
             scene = load_scene(scene, changes)
         elif isinstance(scene, dict):
             if changes:
                 raise TypeError("changes are for scene files; change the dict instead")
             scene = globals()["scene"](scene)
-        super().__init__(scene, threads)
+        super().__init__(scene, threads, state)
 
     def run(self, until=None):
         """Steps until the time `until`, s, or the scene's duration. Returns what happened, as step() does."""

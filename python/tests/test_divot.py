@@ -114,6 +114,18 @@ def test_things_are_added_while_it_runs():
         world.add_bomb(position=[0, 0], **{"yield": -1})
 
 
+def test_goes_on_from_saved_state():
+    world = divot.World(small())
+    world.run(0.1)
+    other = divot.World(small(), threads=2, state=world.save())
+    assert other.time == world.time
+    for w in (world, other):
+        w.run(0.3)
+    assert other.state_hash == world.state_hash
+    with pytest.raises(divot.Error, match="the state of a world is damaged"):
+        divot.World(small(), state=b"no")
+
+
 def test_results_are_written(tmp_path):
     world = divot.World(small(output={"formats": ["vtp", "obj"]}))
     recorder = divot.Recorder(str(tmp_path / "out"))

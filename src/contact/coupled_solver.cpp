@@ -11,7 +11,8 @@ btVector3 to_bullet(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
-void CoupledSolver::prepare(std::span<ConstraintRow> joints, std::span<const Resistance> bodies) {
+void CoupledSolver::prepare(std::span<ConstraintRow> joints, std::span<const Resistance> bodies, Touches& touches) {
+  touches_ = &touches;
   joints_ = joints;
   resistance_ = bodies;
   state_.resize(bodies.size());
@@ -110,8 +111,9 @@ btScalar CoupledSolver::solveGroupCacheFriendlySetup(btCollisionObject** bodies,
                                                      btPersistentManifold** manifolds, int manifold_count,
                                                      btTypedConstraint** constraints, int constraint_count,
                                                      const btContactSolverInfo& info, btIDebugDraw* draw) {
+  const auto touching = touches_->recall(manifolds, manifold_count);
   const btScalar result = btSequentialImpulseConstraintSolver::solveGroupCacheFriendlySetup(
-      bodies, count, manifolds, manifold_count, constraints, constraint_count, info, draw);
+      bodies, count, touching.data(), static_cast<int>(touching.size()), constraints, constraint_count, info, draw);
   start_bodies(bodies, count);
   start_contacts();
   return result;

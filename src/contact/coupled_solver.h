@@ -7,6 +7,7 @@
 
 #include "contact/joint_rows.h"
 #include "contact/resistance.h"
+#include "contact/touches.h"
 #include "math/six.h"
 
 namespace divot::contact {
@@ -17,8 +18,8 @@ namespace divot::contact {
 /// their rows.
 class CoupledSolver : public btSequentialImpulseConstraintSolver {
  public:
-  /// For the next step. Body i has user index i; rows belong to joints.
-  void prepare(std::span<ConstraintRow> joints, std::span<const Resistance> bodies);
+  /// For the next step. Body i has user index i; rows belong to joints; `touches` are those of the step before.
+  void prepare(std::span<ConstraintRow> joints, std::span<const Resistance> bodies, Touches& touches);
 
   /// Impulse of joints and contacts on a body in the last step; 0 for those that had neither.
   const math::Row& impulse(std::size_t body) const { return state_[body].impulse; }
@@ -57,6 +58,7 @@ class CoupledSolver : public btSequentialImpulseConstraintSolver {
   void start_bodies(btCollisionObject** bodies, int count);
   void start_contacts();
 
+  Touches* touches_ = nullptr;
   std::span<ConstraintRow> joints_;
   std::span<const Resistance> resistance_;
   std::vector<BodyState> state_;

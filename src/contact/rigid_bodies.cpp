@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/coupled_solver.h"
+#include "contact/touches.h"
 
 namespace divot::contact {
 namespace {
@@ -57,6 +58,7 @@ struct RigidBodies::Bullet {
   CoupledSolver solver;
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
   std::vector<std::unique_ptr<btCollisionShape>> shapes;
+  Touches touches;
 
   // Of a solid: its piece, or a compound of its pieces.
   btCollisionShape* add_shape(const geometry::Solid& solid) {
@@ -84,6 +86,15 @@ struct RigidBodies::Bullet {
   ~Bullet() {
     for (auto& body : bodies) world.removeRigidBody(body.get());
   }
+
+  // Bodies are where they are outside: nothing of their motion is kept here.
+  void place(std::span<const state::Body> from) {
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      bodies[i]->setCenterOfMassTransform(btTransform(to_bullet(from[i].orientation), to_bullet(from[i].position)));
+      bodies[i]->setLinearVelocity(to_bullet(from[i].velocity));
+      bodies[i]->setAngularVelocity(to_bullet(from[i].angular_velocity));
+    }
+  }
 };
 
 RigidBodies::RigidBodies() : bullet_(std::make_unique<Bullet>()) {}
@@ -102,6 +113,7 @@ void RigidBodies::add(const state::Body& body) {
   // The soil decides when a body rests, not Bullet.
   rigid->setActivationState(DISABLE_DEACTIVATION);
   bullet_->world.addRigidBody(rigid.get());
+  bullet_->touches.add(*rigid);
 }
 
 void RigidBodies::add(const state::HeldJoint& joint) {
@@ -116,12 +128,11 @@ std::optional<math::Row> RigidBodies::impulse(std::size_t body) const {
 
 void RigidBodies::advance(std::span<state::Body> bodies, std::span<ConstraintRow> rows,
                           std::span<const Resistance> resistance, double dt) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    bullet_->bodies[i]->setLinearVelocity(to_bullet(bodies[i].velocity));
-    bullet_->bodies[i]->setAngularVelocity(to_bullet(bodies[i].angular_velocity));
-  }
-  bullet_->solver.prepare(rows, resistance);
+  bullet_->place(bodies);
+  Touches::clear(bullet_->dispatcher);
+  bullet_->solver.prepare(rows, resistance, bullet_->touches);
   bullet_->world.stepSimulation(dt, 0);
+  bullet_->touches.remember();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const btRigidBody& rigid = *bullet_->bodies[i];
     const btQuaternion q = rigid.getWorldTransform().getRotation();
@@ -131,5 +142,8 @@ void RigidBodies::advance(std::span<state::Body> bodies, std::span<ConstraintRow
     bodies[i].angular_velocity = from_bullet(rigid.getAngularVelocity());
   }
 }
+
+std::string RigidBodies::save() const { return bullet_->touches.save(); }
+bool RigidBodies::restore(std::string_view bytes) { return bullet_->touches.restore(bytes); }
 
 }  // namespace divot::contact

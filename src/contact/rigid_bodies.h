@@ -3,6 +3,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "contact/joint_rows.h"
 #include "contact/resistance.h"
@@ -33,6 +35,11 @@ class RigidBodies {
 
   /// What joints and other bodies gave a body in the last step, N s and N m s; nothing where it had neither.
   std::optional<math::Row> impulse(std::size_t body) const;
+
+  /// All that is kept here from one step to the next, as bytes, and back: where bodies touch each other and how hard.
+  /// False where the bytes are not of that kind.
+  std::string save() const;
+  bool restore(std::string_view bytes);
 
  private:
   struct Bullet;

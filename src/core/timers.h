@@ -21,6 +21,14 @@ class Timers {
   double ms(std::size_t index) const { return ms_[index]; }
   std::uint64_t calls(std::size_t index) const { return calls_[index]; }
 
+  /// What has been added up so far, and to go on from that.
+  struct Totals {
+    std::array<double, kCount> ms{};
+    std::array<std::uint64_t, kCount> calls{};
+  };
+  Totals totals() const { return {ms_, calls_}; }
+  void go_on_from(const Totals& totals) { ms_ = totals.ms, calls_ = totals.calls; }
+
  private:
   using Clock = std::chrono::steady_clock;
   static constexpr std::size_t kNobody = kCount;

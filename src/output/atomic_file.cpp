@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -70,6 +71,15 @@ void AtomicFile::mark() {
   std::error_code unreadable;
   const std::uintmax_t size = std::filesystem::file_size(temporary_, unreadable);
   if (!unreadable) marked_ = size;
+}
+
+Result<std::string> AtomicFile::marked_text() const {
+  std::string text(marked_, '\0');
+  errno = 0;
+  std::ifstream in(temporary_, std::ios::binary);
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (reason_ != 0 || !in) return fail(write_error(path_, reason_ != 0 ? reason_ : last_reason()));
+  return text;
 }
 
 Result<void> AtomicFile::commit_marked() {

@@ -34,6 +34,9 @@ class AtomicFile {
   /// Hands what was written so far to the system and remembers that the file is whole up to here.
   void mark();
 
+  /// What was written before the last mark. Fails with the system's reason.
+  Result<std::string> marked_text() const;
+
   /// Puts the file in its place as it was when it was last marked, whatever failed after that.
   Result<void> commit_marked();
 

@@ -19,10 +19,11 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-Result<BodiesCsv> BodiesCsv::create(const std::string& path) {
+Result<BodiesCsv> BodiesCsv::create(const std::string& path, std::string_view text) {
   auto file = AtomicFile::create(path);
   if (!file) return tl::unexpected(file.error());
-  file->write("time,name,x,y,z,vx,vy,vz,qx,qy,qz,qw,sinkage\n");
+  file->write(text);
+  file->mark();
   return BodiesCsv(std::move(*file));
 }
 

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "divot/errors.h"
 #include "divot/views.h"
@@ -13,8 +14,11 @@ namespace divot::output {
 /// beside its name while a run lasts and takes the name at the end.
 class BodiesCsv {
  public:
-  /// Starts with the header. Fails with the system's reason.
-  static Result<BodiesCsv> create(const std::string& path);
+  /// Starts with the header, or goes on after `text`, of text(). Fails with the system's reason.
+  static Result<BodiesCsv> create(const std::string& path, std::string_view text = kHeader);
+
+  /// Header and rows so far. Fails with the system's reason.
+  Result<std::string> text() const { return file_.marked_text(); }
 
   /// One row for each body, which are safe then. Failures are reported by commit().
   void append(double time, std::span<const BodyView> bodies);
@@ -26,6 +30,7 @@ class BodiesCsv {
   Result<void> salvage() { return file_.commit_marked(); }
 
  private:
+  static constexpr std::string_view kHeader = "time,name,x,y,z,vx,vy,vz,qx,qy,qz,qw,sinkage\n";
   explicit BodiesCsv(AtomicFile file) : file_(std::move(file)) {}
 
   AtomicFile file_;

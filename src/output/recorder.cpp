@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/archive.h"
 #include "divot/output.h"
 #include "output/csv.h"
 #include "output/formats.h"
@@ -33,7 +34,31 @@ std::vector<const Format*> formats_of(const World& world, std::vector<std::strin
   return found;
 }
 
+std::string bodies_path(const std::string& folder) { return (std::filesystem::path(folder) / "bodies.csv").string(); }
+
+// What a recorder leaves to one that goes on in its place.
+struct Progress {
+  std::string rows;  // of bodies.csv
+  std::optional<std::uint64_t> last_row;
+  std::uint64_t frames = 0;
+  std::vector<std::pair<std::string, std::vector<output::SeriesEntry>>> series;
+};
+
+template <class Archive, core::Is<Progress> T>
+void archive(Archive& a, T& progress) {
+  a(progress.rows, progress.last_row, progress.frames, progress.series);
+}
+
 }  // namespace
+
+namespace output {
+
+template <class Archive, core::Is<SeriesEntry> T>
+void archive(Archive& a, T& entry) {
+  a(entry.file, entry.time);
+}
+
+}  // namespace output
 
 struct Recorder::Impl {
   Impl(std::string results_folder, output::BodiesCsv rows)
@@ -49,6 +74,7 @@ struct Recorder::Impl {
 
   std::string folder;
   output::BodiesCsv bodies;
+  std::optional<std::uint64_t> last_row;  // step of the last rows of bodies.csv
   std::uint64_t frames = 0;
   bool finished = false;
   std::shared_ptr<const Frame> last;
@@ -82,12 +108,31 @@ Recorder::~Recorder() = default;
 
 Result<Recorder> Recorder::create(const std::string& folder) {
   if (const auto made = output::make_folder(folder); !made) return tl::unexpected(made.error());
-  auto bodies = output::BodiesCsv::create((std::filesystem::path(folder) / "bodies.csv").string());
+  auto bodies = output::BodiesCsv::create(bodies_path(folder));
   if (!bodies) return tl::unexpected(bodies.error());
   return Recorder(std::make_unique<Impl>(folder, std::move(*bodies)));
 }
 
-void Recorder::add_bodies(const World& world) { impl_->bodies.append(world.time(), world.bodies()); }
+Result<Recorder> Recorder::resume(const std::string& folder, const Checkpoint& checkpoint) {
+  Progress progress;
+  core::ByteReader reader(checkpoint.files);
+  reader(progress);
+  if (!reader.ok() || !reader.at_end())
+    return fail({.problem = "what a run had written is damaged", .expected = "expected the bytes of a Recorder"});
+  if (const auto made = output::make_folder(folder); !made) return tl::unexpected(made.error());
+  auto bodies = output::BodiesCsv::create(bodies_path(folder), progress.rows);
+  if (!bodies) return tl::unexpected(bodies.error());
+  auto impl = std::make_unique<Impl>(folder, std::move(*bodies));
+  impl->last_row = progress.last_row;
+  impl->frames = progress.frames;
+  for (auto& [format, entries] : progress.series) impl->series[format] = std::move(entries);
+  return Recorder(std::move(impl));
+}
+
+void Recorder::add_bodies(const World& world) {
+  impl_->bodies.append(world.time(), world.bodies());
+  impl_->last_row = world.steps();
+}
 
 Result<void> Recorder::write_frame(const World& world) {
   impl_->write(world, fmt::format("frame_{:06}", impl_->frames), formats_of(world, {}), true);
@@ -95,8 +140,26 @@ Result<void> Recorder::write_frame(const World& world) {
   return impl_->writer.status();
 }
 
+Result<void> Recorder::write_checkpoint(const World& world, const RunTotals& totals, const SceneFile& scene) {
+  auto rows = impl_->bodies.text();
+  if (!rows) return tl::unexpected(rows.error());
+  auto progress = std::make_shared<Progress>(Progress{std::move(*rows), impl_->last_row, impl_->frames, {}});
+  auto checkpoint = std::make_shared<Checkpoint>(Checkpoint{scene, totals, world.save(), {}});
+  const std::size_t bytes = progress->rows.size() + checkpoint->world.size();
+  // After the frames so far: what a checkpoint takes as written is there.
+  impl_->writer.push(bytes, [impl = impl_.get(), progress, checkpoint] {
+    progress->series.assign(impl->series.begin(), impl->series.end());
+    core::ByteWriter files;
+    files(*progress);
+    checkpoint->files = files.take();
+    return divot::write_checkpoint(impl->path("checkpoint.divot"), *checkpoint);
+  });
+  return impl_->writer.status();
+}
+
 Result<void> Recorder::finish(const World& world, const RunTotals& totals) {
   if (auto written = impl_->writer.status(); !written) return written;
+  if (impl_->last_row != world.steps()) add_bodies(world);
   impl_->write(world, "terrain_final", formats_of(world, {"ply", "tif"}), false);
   if (auto written = impl_->writer.drain(); !written) return written;
   impl_->finished = true;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,11 @@ struct Body {
   std::string name;
   std::shared_ptr<const geometry::Solid> solid;  ///< never null
   std::shared_ptr<const Shape> shape;            ///< as it is drawn
-  double radius = 1, mass = 1;                   // m, of the ball round its centre of mass that holds it; kg
-  Vec3d inertia = {0.4, 0.4, 0.4};               // kg m^2, about its axes
+  /// What both are made of: hulls have their points; centre of mass and inertia of a kilogram where they are given.
+  Shape given_shape;
+  std::optional<Vec3d> given_center, given_inertia;
+  double radius = 1, mass = 1;      // m, of the ball round its centre of mass that holds it; kg
+  Vec3d inertia = {0.4, 0.4, 0.4};  // kg m^2, about its axes
   double restitution = 0.5, friction = 0.8;
   Vec3d position, velocity, angular_velocity;  // m, m/s, rad/s; contact/
   Quat orientation;

@@ -38,8 +38,18 @@ struct Particles {
   /// Calls f(column_array) for every array, so that rows are added, moved and dropped in one place.
   template <class F>
   void for_each_array(F f) {
-    f(vertex), f(column), f(x), f(y), f(z), f(vx), f(vy), f(vz), f(fx), f(fy), f(fz), f(mass), f(flow_rate),
-        f(held_pull), f(yielded), f(carrier), f(material), f(hold), f(still_steps);
+    for_each_array_of(*this, f);
+  }
+  template <class F>
+  void for_each_array(F f) const {
+    for_each_array_of(*this, f);
+  }
+
+ private:
+  template <class Self, class F>
+  static void for_each_array_of(Self& p, F f) {
+    f(p.vertex), f(p.column), f(p.x), f(p.y), f(p.z), f(p.vx), f(p.vy), f(p.vz), f(p.fx), f(p.fy), f(p.fz), f(p.mass),
+        f(p.flow_rate), f(p.held_pull), f(p.yielded), f(p.carrier), f(p.material), f(p.hold), f(p.still_steps);
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "core/hash.h"
 #include "terrain/dem.h"
 #include "terrain/grid.h"
 #include "terrain/mesh.h"
@@ -21,6 +22,15 @@ Result<state::Surface> load_terrain(const Scene& scene) {
   DemTerrain dem = std::get<DemTerrain>(scene.terrain.shape);
   dem.path = (std::filesystem::path(scene.folder) / dem.path).string();
   return load_dem(dem, scene.terrain.max_vertices);
+}
+
+std::uint64_t fingerprint(const state::Surface& surface) {
+  core::Hash hash;
+  for (const Vec3& p : surface.position) hash.add(p.x), hash.add(p.y), hash.add(p.z);
+  for (const std::uint32_t vertex : surface.mesh.triangles()) hash.add(static_cast<std::uint64_t>(vertex));
+  for (const std::uint8_t material : surface.material) hash.add(static_cast<std::uint64_t>(material));
+  for (const double number : {surface.origin.x, surface.origin.y, surface.origin.z}) hash.add(number);
+  return hash.value();
 }
 
 }  // namespace divot::terrain

@@ -15,4 +15,7 @@ namespace divot::terrain {
 /// memory is taken on one that is larger than TerrainSource::max_vertices. [O(vertices)]
 Result<state::Surface> load_terrain(const Scene& scene);
 
+/// A number that two surfaces share only where they are the same: places, triangles and materials. [O(vertices)]
+std::uint64_t fingerprint(const state::Surface& surface);
+
 }  // namespace divot::terrain

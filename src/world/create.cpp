@@ -47,8 +47,9 @@ std::vector<BodySettings> standing(const World::Impl& w, std::vector<BodySetting
   std::map<std::string, double> height;
   const auto together = [](const BodySettings& body) { return body.above_ground && !body.assembly.empty(); };
   const auto lift_of = [&](const BodySettings& body) -> std::optional<double> {
-    const auto placed = place::prepare(w, body);
-    return placed ? place::lift(w, body, *placed) : std::nullopt;  // what is wrong with it, spawn() will say
+    const auto made = place::prepare(w, body);
+    if (!made) return std::nullopt;  // what is wrong with it, spawn() will say
+    return place::lift(w, body, place::placed(w, body, *made));
   };
   for (const BodySettings& body : bodies) {
     if (!together(body)) continue;
@@ -99,6 +100,7 @@ Result<World> World::create(const Scene& scene, std::shared_ptr<const Jobs> jobs
   impl->media = media_of(impl->materials);
   if (auto ok = terrain::place_materials(scene, impl->materials, *surface); !ok) return tl::unexpected(ok.error());
   impl->surface = std::move(*surface);
+  impl->terrain_fingerprint = terrain::fingerprint(impl->surface);
   impl->lowest = math::Aabb::kInf;
   for (const Vec3& p : impl->surface.position) impl->lowest = std::min<double>(impl->lowest, p.z);
   impl->dirty_chunk.assign(impl->surface.position.size() / kDirtyChunk + 1, false);
@@ -122,31 +124,26 @@ Result<BodyId> World::spawn(const BodySettings& settings) {
   Scene alone;
   alone.bodies.push_back(settings);
   if (Errors errors = check(alone); !errors.empty()) return tl::unexpected(std::move(errors));
-  auto placed = place::prepare(*impl_, settings);
-  if (!placed) return tl::unexpected(placed.error());
+  auto made = place::prepare(*impl_, settings);
+  if (!made) return tl::unexpected(made.error());
+  state::Body& body = *made;
+  place::Placed placed = place::placed(*impl_, settings, body);
   if (settings.above_ground) {
-    const auto lift = place::lift(*impl_, settings, *placed);
+    const auto lift = place::lift(*impl_, settings, placed);
     if (!lift) return fail(place::no_ground(settings));
-    placed->origin.z = *lift + settings.position.z;
+    placed.origin.z = *lift + settings.position.z;
   }
-  if (const auto good = place::check_place(*impl_, settings, *placed); !good) return tl::unexpected(good.error());
+  if (const auto good = place::check_place(*impl_, settings, placed); !good) return tl::unexpected(good.error());
 
-  state::Body body;
-  body.name = settings.name;
-  body.solid = placed->solid, body.shape = placed->shape;
-  body.radius = body.solid->radius;
-  body.mass = settings.mass;
-  body.inertia = settings.mass * body.solid->inertia;
-  body.restitution = settings.restitution;
-  body.friction = settings.friction;
-  if (place::is_set_down(*impl_, settings, *placed)) body.weight_share = 0;
+  if (place::is_set_down(*impl_, settings, placed)) body.weight_share = 0;
   using math::operator*;
   body.orientation = rotation(settings.rotation_deg) * math::conjugate(body.solid->axes);
-  body.position = placed->origin - math::rotate(body.orientation, body.solid->origin);
+  body.position = placed.origin - math::rotate(body.orientation, body.solid->origin);
   body.velocity = settings.velocity;
   body.angular_velocity = settings.angular_velocity;
   impl_->rigid.add(body);
   impl_->bodies.push_back(std::move(body));
+  impl_->contact_scratch.bodies.resize(impl_->bodies.size());
   return BodyId{static_cast<std::uint32_t>(impl_->bodies.size() - 1)};
 }
 

@@ -63,6 +63,7 @@ Result<void> fill(const World::Impl& w, const BodySettings& body, Hull& hull) {
     return tl::unexpected(points.error());
   }
   hull.points = std::move(*points);
+  hull.file.clear();
   return {};
 }
 
@@ -131,18 +132,32 @@ std::optional<double> lift_of_any(const World::Impl& w, const BodySettings& body
 
 }  // namespace
 
-Result<Placed> prepare(const World::Impl& w, const BodySettings& body) {
-  auto shape = filled(w, body);
+bool embody(state::Body& body) {
+  auto solid = geometry::make_solid(body.given_shape, body.given_center, body.given_inertia);
+  if (!solid) return false;
+  body.solid = std::make_shared<const geometry::Solid>(std::move(*solid));
+  body.shape = std::make_shared<const Shape>(geometry::drawn(body.given_shape));
+  body.radius = body.solid->radius;
+  body.inertia = body.mass * body.solid->inertia;
+  return true;
+}
+
+Result<state::Body> prepare(const World::Impl& w, const BodySettings& settings) {
+  auto shape = filled(w, settings);
   if (!shape) return tl::unexpected(shape.error());
-  std::optional<Vec3d> inertia = body.inertia;
-  if (inertia) *inertia *= 1 / body.mass;
-  auto solid = geometry::make_solid(*shape, body.center_of_mass, inertia);
-  if (!solid)
-    return fail({.key = fmt::format("bodies.{}.shape", body.name),
-                 .problem = "its points span no volume",
-                 .expected = "at least 4 that do not lie in a plane"});
-  return Placed{std::make_shared<const geometry::Solid>(std::move(*solid)),
-                std::make_shared<const Shape>(geometry::drawn(*shape)), body.position - w.surface.origin};
+  state::Body body{.name = settings.name, .given_shape = std::move(*shape), .given_center = settings.center_of_mass};
+  if (settings.inertia) body.given_inertia = *settings.inertia * (1 / settings.mass);
+  body.mass = settings.mass;
+  body.restitution = settings.restitution;
+  body.friction = settings.friction;
+  if (embody(body)) return body;
+  return fail({.key = fmt::format("bodies.{}.shape", settings.name),
+               .problem = "its points span no volume",
+               .expected = "at least 4 that do not lie in a plane"});
+}
+
+Placed placed(const World::Impl& w, const BodySettings& settings, const state::Body& body) {
+  return {body.solid, settings.position - w.surface.origin};
 }
 
 std::optional<double> lift(const World::Impl& w, const BodySettings& body, const Placed& placed) {

@@ -11,12 +11,17 @@ namespace divot::place {
 /// A body as it comes into a world.
 struct Placed {
   std::shared_ptr<const geometry::Solid> solid;
-  std::shared_ptr<const Shape> shape;  ///< as it is drawn
-  Vec3d origin;                        ///< of the shape, m, relative to the surface's origin; z as the scene has it
+  Vec3d origin;  ///< of the shape, m, relative to the surface's origin; z as the scene has it
 };
 
-/// Reads what the shape needs. Fails naming the file or the shape.
-Result<Placed> prepare(const World::Impl& w, const BodySettings& body);
+/// Makes what a body is from what it was given. False where a hull spans no volume.
+bool embody(state::Body& body);
+
+/// What the settings say of a body, with the files its shape needs read. Fails naming the file or the shape.
+Result<state::Body> prepare(const World::Impl& w, const BodySettings& settings);
+
+/// Where the settings put it.
+Placed placed(const World::Impl& w, const BodySettings& settings, const state::Body& body);
 
 /// Height above `origin` (z = 0) by which the body must be lifted so that it just rests on the ground; nothing where
 /// there is none below it. [O(vertices below it)]

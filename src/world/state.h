@@ -49,7 +49,8 @@ struct World::Impl {
   std::vector<state::HeldJoint> joints;
   std::vector<PlannedBomb> bombs;
   std::vector<state::Blast> blasts;
-  double lowest = 0;  ///< m, of the terrain as it was loaded
+  double lowest = 0;                      ///< m, of the terrain as it was loaded
+  std::uint64_t terrain_fingerprint = 0;  ///< of places, triangles and materials, as they were loaded
 
   refit::Tree tree;
   neighbours::Index neighbours;

@@ -28,7 +28,8 @@ namespace {
 
 }  // namespace
 
-Outcome run_program(const std::vector<std::string>& arguments, const fs::path& folder, int interrupt_after_ms) {
+Outcome run_program(const std::vector<std::string>& arguments, const fs::path& folder, int signal_after_ms,
+                    int signal) {
   // Beside the folder, so that the folder holds only what the program left there.
   const std::string out = folder.string() + ".out", err = folder.string() + ".err";
   std::vector<std::string> words = {DIVOT_PROGRAM};
@@ -39,9 +40,9 @@ Outcome run_program(const std::vector<std::string>& arguments, const fs::path& f
 
   const pid_t child = fork();
   if (child == 0) become_program(pointers, folder.c_str(), out.c_str(), err.c_str());
-  if (interrupt_after_ms > 0) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_after_ms));
-    kill(child, SIGINT);
+  if (signal_after_ms > 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(signal_after_ms));
+    kill(child, signal);
   }
   int status = 0;
   rusage used{};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -13,10 +14,10 @@ struct Outcome {
   long peak_kb = 0;  ///< most memory it held
 };
 
-/// Runs `divot` with `arguments` in `folder`, its output going to no terminal. `interrupt_after_ms` > 0: sends SIGINT
+/// Runs `divot` with `arguments` in `folder`, its output going to no terminal. `signal_after_ms` > 0: sends `signal`
 /// then.
 Outcome run_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-                    int interrupt_after_ms = 0);
+                    int signal_after_ms = 0, int signal = SIGINT);
 
 /// Everything in a file; empty where there is none.
 std::string read_text(const std::filesystem::path& file);
