@@ -102,12 +102,12 @@ void archive(Archive& a, T& k) {
 }
 template <class Archive, Is<state::Soil> T>
 void archive(Archive& a, T& s) {
-  a(s.vertex, s.particle, s.original, s.rest, s.plastic, s.shear, s.area, s.gained, s.compacted, s.loose, s.excess,
-    s.restless);
+  a(s.vertex, s.particle, s.original, s.rest, s.plastic, s.shear, s.area, s.cell, s.gained, s.compacted, s.loose,
+    s.excess, s.restless);
 }
 template <class Archive, Is<state::Bonds> T>
 void archive(Archive& a, T& b) {
-  a(b.count, b.first, b.neighbour, b.run, b.medium, b.rest_length);
+  a(b.count, b.first, b.neighbour, b.medium, b.rest_length);
 }
 
 // Of the ground only what was ever touched can have moved or be of another material.
@@ -178,8 +178,8 @@ bool all_of_size(std::size_t size, const Lists&... lists) {
 }
 
 bool holds_together(const state::Soil& s, std::size_t vertices, std::size_t particles) {
-  return all_of_size(s.size(), s.particle, s.original, s.rest, s.plastic, s.shear, s.area, s.gained, s.compacted,
-                     s.loose, s.excess) &&
+  return all_of_size(s.size(), s.particle, s.original, s.rest, s.plastic, s.shear, s.area, s.cell, s.gained,
+                     s.compacted, s.loose, s.excess) &&
          below_or_none(s.particle, particles) && below(s.restless, vertices) && ascends(s.restless);
 }
 
@@ -200,12 +200,11 @@ bool holds_together(const state::Particles& p, const World::Impl& w) {
 bool holds_together(const state::Bonds& b, const neighbours::Index& index, std::size_t media) {
   constexpr std::size_t kLanes = state::Bonds::kLanes;
   const std::size_t blocks = (b.count + kLanes - 1) / kLanes;
-  if (b.first.empty()) return b.count == 0 && b.neighbour.empty() && b.run.empty() && b.rest_length.empty();
+  if (b.first.empty()) return b.count == 0 && b.neighbour.empty() && b.rest_length.empty();
   return b.block_count() == blocks && b.first[0] == 0 && std::ranges::is_sorted(b.first) &&
          all_of_size(std::size_t{b.first.back()} * kLanes, b.neighbour, b.rest_length) &&
-         all_of_size(b.first.back(), b.run) && all_of_size(blocks, b.medium) && below(b.neighbour, b.count) &&
+         all_of_size(blocks, b.medium) && below(b.neighbour, b.count) &&
          all_of_size(b.count, index.vertex, index.x, index.y, index.z) && ascends(index.vertex) &&
-         std::ranges::all_of(b.run, [&](std::uint32_t r) { return r == kNone || r + kLanes <= b.count; }) &&
          std::ranges::all_of(b.medium, [&](std::uint8_t m) { return m < media || m == state::Bonds::kSeveral; });
 }
 
@@ -259,6 +258,20 @@ bool is_possible(const World::Impl& w) {
   return check(held).empty();
 }
 
+// How lanes find their neighbours follows from who they are.
+void find_reads(state::Bonds& bonds) {
+  constexpr std::uint32_t kLanes = state::Bonds::kLanes;
+  bonds.reads.resize(bonds.neighbour.size() / kLanes);
+  for (std::size_t slot = 0; slot < bonds.reads.size(); ++slot) {
+    std::array<std::uint32_t, kLanes> pairs;
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      const std::size_t entry = slot * kLanes + lane;
+      pairs[lane] = bonds.rest_length[entry] < 0 ? kNone : bonds.neighbour[entry];
+    }
+    bonds.reads[slot] = state::find_reads(pairs, bonds.count);
+  }
+}
+
 // The scene without what the bytes hold: bodies, joints and bombs.
 Scene ground_of(const Scene& scene) {
   Scene ground = scene;
@@ -304,6 +317,7 @@ Result<World> World::restore(std::string_view bytes, const Scene& scene, std::sh
   core::archive_timers(reader, w.timers);
   if (!reader.ok() || !reader.at_end() || !holds_together(w) || !is_possible(w)) return damaged();
 
+  find_reads(w.bonds);
   for (state::Body& body : w.bodies) {
     if (!place::embody(body)) return damaged();
     w.rigid.add(body);
