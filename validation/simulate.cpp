@@ -1,5 +1,6 @@
 #include "validation/simulate.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace divot::validation {
@@ -13,6 +14,18 @@ void run_to(World& world, double time) {
 Result<World> run(const Scene& scene, double time) {
   auto world = make_world(scene);
   if (world) run_to(*world, time);
+  return world;
+}
+
+Result<World> run_to_rest(const Scene& scene) {
+  constexpr double kSetDown = 2, kLongest = 20, kStill = 2e-4;  // s, s, m/s
+  auto world = run(scene, kSetDown);
+  if (!world) return world;
+  const auto moves = [&] {
+    const auto bodies = world->bodies();
+    return std::any_of(bodies.begin(), bodies.end(), [](const BodyView& b) { return length(b.velocity) > kStill; });
+  };
+  while (world->time() < kLongest && moves()) world->step();
   return world;
 }
 

@@ -15,6 +15,9 @@ void run_to(World& world, double time);
 /// Runs the scene to `time`.
 Result<World> run(const Scene& scene, double time);
 
+/// Runs the scene until its bodies rest, which soft soil damps slowly, or for 20 s.
+Result<World> run_to_rest(const Scene& scene);
+
 /// A flat grid of square cells of one material, centred on the origin. `size`: vertices along each side.
 Scene flat(const std::string& material, int size, double spacing);
 

@@ -12,7 +12,6 @@ namespace divot::validation {
 namespace {
 
 constexpr double kTolerance = 0.10;
-constexpr double kRest = 3;  // s
 
 struct Ball {
   const char* name;
@@ -40,7 +39,7 @@ Experiment at_rest(const char* soil_name, const MeasuredSoil& soil, const Ball& 
                              .mass = ball.mass,
                              .position = {0.3 * ball.spacing, 0.1 * ball.spacing, 0},
                              .above_ground = true}};
-            const auto world = run(scene, kRest);
+            const auto world = run_to_rest(scene);
             if (!world) return tl::unexpected(world.error());
             return Outcome{{world->bodies().front().sinkage}};
           }};

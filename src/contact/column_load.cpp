@@ -34,23 +34,26 @@ laws::Pressure<double> pressure_of(const state::Body& body, const Footing& f, do
   return laws::ground_pressure<double>(medium, sinkage, f.plastic, patch(body, s), medium.elastic_stiffness);
 }
 
-Contact frozen(const Footing& f, const geometry::Underside& under, const Vec3d& position, const Row& v) {
+Contact frozen(const Footing& f, const geometry::Underside& under, const Vec3d& position, const Vec3d& ground,
+               const Row& v) {
   Contact c{.underside = under.height};
   c.arm = {f.arm_x - position.x, f.arm_y - position.y, under.height - position.z};
   const double steep = std::max(kSteepestFlank, -under.normal.z);
-  const Vec3d lift{-under.normal.x / steep, -under.normal.y / steep, 1};
-  c.slope = length(lift);
-  c.rise = row_of(lift, c.arm);
+  const Vec3d push{-under.normal.x / steep, -under.normal.y / steep, 1};
+  c.slope = length(push);
+  c.rise = row_of(push, c.arm);
   c.rise_there = dot6(c.rise, v);
+  c.lift = {ground.x, ground.y, ground.z, c.rise[3], c.rise[4], c.rise[5]};
 
-  // Slip is against the column, which goes up and down with the underside.
+  // Slip is against soil that goes down with the body, but stays where it is while the body only moves along. Were it
+  // to follow the underside of a wheel that rolls by, that would grip while it turns too fast, and never skid.
   const Vec3d level = cross(under.normal, Vec3d{0, 1, 0});
   const double l = length(level);
   c.tangent[0] = l > 1e-6 ? level * (1 / l) : Vec3d{1, 0, 0};
   c.tangent[1] = cross(under.normal, c.tangent[0]);
   for (int i = 0; i < 2; ++i) {
     c.slip[i] = row_of(c.tangent[i], c.arm);
-    for (int k = 0; k < 6; ++k) c.slip[i][k] -= c.tangent[i].z * c.rise[k];
+    for (int k = 0; k < 6; ++k) c.slip[i][k] -= c.tangent[i].z * c.lift[k];
   }
   return c;
 }
@@ -66,13 +69,13 @@ void freeze_geometry(const state::Body& body, const Scratch::Pose& start, const 
     const Footing& f = scratch.footings[k];
     const geometry::Underside under = scratch.end.underside(f.x, f.y);
     if (!under.below) continue;
-    scratch.contacts.push_back(frozen(f, under, position, v));
+    scratch.contacts.push_back(frozen(f, under, position, scratch.ground, v));
     scratch.contacts.back().footing = k;
   }
 }
 
-Push push_of(const state::Body& body, const Footing& f, const Contact& c, double rising, const Situation& s) {
-  const double height = underside_at(c, rising, s.dt);
+Push push_of(const state::Body& body, const Footing& f, const Contact& c, const Row& v, const Situation& s) {
+  const double rising = dot6(c.rise, v), height = underside_at(c, rising, s.dt);
   if (height >= f.height) return {};
   const laws::Medium& medium = s.media[f.material];
   const auto pressure = pressure_of(body, f, f.fresh - height, s);
@@ -82,12 +85,17 @@ Push push_of(const state::Body& body, const Footing& f, const Contact& c, double
                 body.angular_velocity.x, body.angular_velocity.y, body.angular_velocity.z};
   const double inertia = f.mass / s.dt, met = f.carried ? dot6(c.rise, now) : f.speed;
   Push push{pressure.value * f.area + f.pull + inertia * (met - rising), pressure.slope * f.area * s.dt + inertia};
-  // Soil that is being compressed radiates waves: without that, a ball set down gently would sink as if it were
-  // dropped. Waves carry no more than the soil's strength allows.
-  if (rising < 0 && medium.ground) {
-    const double damping = -medium.ground_damping * rising, most = kMostDamping * pressure.value;
+  // Soil under a load that comes down radiates waves: without that, a ball set down gently would sink as if it were
+  // dropped. A load that only moves along, slower than waves, radiates none. Waves carry no more than the soil's
+  // strength allows.
+  const double lifting = dot6(c.lift, v), speed = std::min(-rising, -lifting);
+  if (speed > 0 && medium.ground) {
+    const double damping = medium.ground_damping * speed, most = kMostDamping * pressure.value;
     push.force += std::min(damping, most) * f.area;
-    push.per_speed += (damping < most ? medium.ground_damping : kMostDamping * pressure.slope * s.dt) * f.area;
+    if (damping > most)
+      push.per_rising += kMostDamping * pressure.slope * s.dt * f.area;
+    else
+      (rising > lifting ? push.per_rising : push.per_lifting) += medium.ground_damping * f.area;
   }
   return push.force > 0 ? push : Push{};  // soil does not pull
 }

@@ -10,11 +10,12 @@ namespace divot::contact {
 void freeze_geometry(const state::Body& body, const Scratch::Pose& start, const Row& v, const Situation& s,
                      Scratch::PerBody& scratch);
 
-/// A column's vertical push, N, >= 0, and how fast it falls with the speed at which the underside rises, N s/m.
+/// A column's vertical push, N, >= 0, and how fast it falls with the speed at which the underside rises and with that
+/// at which the body lifts off the ground, N s/m.
 struct Push {
-  double force = 0, per_speed = 0;
+  double force = 0, per_rising = 0, per_lifting = 0;
 };
-Push push_of(const state::Body& body, const Footing& f, const Contact& c, double rising, const Situation& s);
+Push push_of(const state::Body& body, const Footing& f, const Contact& c, const Row& v, const Situation& s);
 
 /// A column's shear force along both tangents, against the slip, N; its slope, N/m, along the shear displacement and
 /// across it.

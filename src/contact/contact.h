@@ -52,6 +52,7 @@ struct Footing {
   double pull = 0, speed = 0;   ///< N, m/s: of the particle by its bonds, and upward
   Vec3d shear;                  ///< m, shear displacement j
   double load = 0;              ///< N, the push that the last pass of the solve found
+  double held = 0;              ///< N, upward on the body by shear along its flank, likewise
   Answer answer;                ///< likewise
 };
 
@@ -65,6 +66,7 @@ struct Contact {
   Vec3d arm;              ///< from the body's centre, m
   Vec3d tangent[2];       ///< unit, across the underside's normal
   Row rise{};             ///< to the speed of the underside over the column, upward
+  Row lift{};             ///< likewise without what the underside's slope makes of a way along the ground
   Row slip[2]{};          ///< to the slip against the column along each tangent
   double underside = 0;   ///< m, height where the geometry was frozen
   double rise_there = 0;  ///< m/s, of the velocity it was frozen at
@@ -88,6 +90,7 @@ struct Scratch {
     geometry::PosedSolid start, end;  // the body at the start of the step and where it is expected at its end
     std::vector<std::uint32_t> found, previous, ring, next;
     std::vector<Footing> footings;
+    Vec3d ground{0, 0, 1};                // across the unpressed ground under the body, 1 high
     std::vector<geometry::Cover> covers;  // [footing] area, and area times place
     std::vector<Contact> contacts;
     std::vector<Guide> guides;

@@ -273,6 +273,23 @@ void take_up_slack(const state::Body& body, const geometry::PosedSolid& posed, c
   }
 }
 
+// Across the plane that lies nearest to the unpressed ground within the body's reach, 1 high.
+Vec3d across_ground(const std::vector<Footing>& footings, double spacing) {
+  double x = 0, y = 0, z = 0, xx = 0, xy = 0, yy = 0, xz = 0, yz = 0;
+  const Footing& first = footings.front();
+  for (const Footing& f : footings) {
+    const double dx = f.x - first.x, dy = f.y - first.y, dz = f.fresh - first.fresh;
+    x += dx, y += dy, z += dz;
+    xx += dx * dx, xy += dx * dy, yy += dy * dy, xz += dx * dz, yz += dy * dz;
+  }
+  // A few columns in a row say nothing of the slope across it: level there.
+  const auto n = static_cast<double>(footings.size());
+  const double least = 1e-3 * spacing * spacing;
+  xx += least - x * x / n, yy += least - y * y / n, xy -= x * y / n, xz -= x * z / n, yz -= y * z / n;
+  const double det = xx * yy - xy * xy;
+  return {-(xz * yy - yz * xy) / det, -(yz * xx - xz * xy) / det, 1};
+}
+
 }  // namespace
 
 void gather(const state::Body& body, const Situation& s, Scratch::PerBody& scratch) {
@@ -290,6 +307,7 @@ void gather(const state::Body& body, const Situation& s, Scratch::PerBody& scrat
   double sum = 0;
   for (const Press& press : scratch.presses) sum += press.pressure;
   const double mean = scratch.presses.empty() ? 0 : sum / static_cast<double>(scratch.presses.size());
+  scratch.ground = across_ground(footings, s.surface.spacing);
   for (Footing& f : footings) take_up_slack(body, scratch.start, s, scratch.presses, mean, f);
 }
 

@@ -16,8 +16,8 @@ constexpr double kGuide = 10;
 
 // A body that starts at rest on the ground is set down in this time, s: its weight comes onto the soil bit by bit. All
 // of it at once makes a heavy ball sink half as deep again as Bekker's pressure carries it; half the time still a
-// quarter.
-constexpr double kSetDown = 1;
+// quarter. It comes and ends smoothly: one that grew evenly would still be going down when it is all there.
+constexpr double kSetDown = 1.5;
 constexpr int kPasses = 3, kIterations = 40, kHalvings = 12;
 
 using math::add_outer;
@@ -83,14 +83,16 @@ struct Balance {
     for (const Contact& c : contacts) {
       const Footing& f = footings[c.footing];
       const laws::Medium& medium = s.media[f.material];
-      const Push push = push_of(body, f, c, dot6(c.rise, v), s);
+      const Push push = push_of(body, f, c, v, s);
       if (push.force > 0) {
         add_scaled(r, c.rise, s.dt * push.force);
-        if (a != nullptr) add_outer(*a, c.rise, s.dt * push.per_speed);
+        if (a != nullptr) add_outer(*a, c.rise, s.dt * push.per_rising);
+        if (a != nullptr && push.per_lifting > 0) add_outer(*a, c.lift, s.dt * push.per_lifting);
       }
       if (c.grip <= 0) continue;
       const Shear shear = shear_of(medium, f, c, {dot6(c.slip[0], v), dot6(c.slip[1], v)}, s.dt);
       for (int i = 0; i < 2; ++i) add_scaled(r, c.slip[i], -s.dt * shear.force[i]);
+      add_scaled(r, c.lift, s.dt * f.held);
       if (a != nullptr) add_shear_slope(*a, c, shear);
     }
     return r;
@@ -137,6 +139,13 @@ void find_balance(const Balance& balance, Row& v) {
     v = moved(v, step, low > 0 ? low : high);
     missing = balance.missing(v, &a);
   }
+}
+
+// What shear along the underside's flank carries of the body, N: that under a driven wheel lifts it.
+double held_by_shear(const Footing& f, const Contact& c, const Row& v, const Situation& s) {
+  if (c.grip <= 0) return 0;
+  const Shear shear = shear_of(s.media[f.material], f, c, {dot6(c.slip[0], v), dot6(c.slip[1], v)}, s.dt);
+  return -shear.force[0] * c.tangent[0].z - shear.force[1] * c.tangent[1].z;
 }
 
 // Newton's law of impact on top of the soil's plastic answer: once the soil has stopped the body, the share of the
@@ -206,8 +215,8 @@ void meet_soil(state::Body& body, const Situation& s, Scratch::PerBody& scratch,
   std::vector<Contact>& contacts = scratch.contacts;
   resistance = {inertia_of(body), body.held_impulse};
   body.weight_share = std::min(1.0, body.weight_share + s.dt / kSetDown);
-  const Vec3d before = body.velocity, falling = before + s.dt * body.weight_share * s.gravity,
-              spin = body.angular_velocity;
+  const double weight = body.weight_share * body.weight_share * (3 - 2 * body.weight_share);
+  const Vec3d before = body.velocity, falling = before + s.dt * weight * s.gravity, spin = body.angular_velocity;
   Row start = math::row(falling, spin);
   if (body.held_impulse != Row{}) {
     Matrix6 inertia = resistance.whole;
@@ -228,8 +237,11 @@ void meet_soil(state::Body& body, const Situation& s, Scratch::PerBody& scratch,
     // The first pass finds the load without friction; grip then comes from the load of the pass before.
     for (Contact& c : contacts) c.grip = grip_of(body, footings[c.footing], c, s);
     find_balance(balance, v);
-    for (Contact& c : contacts)
-      footings[c.footing].load = push_of(body, footings[c.footing], c, dot6(c.rise, v), s).force;
+    for (const Contact& c : contacts) {
+      Footing& f = footings[c.footing];
+      f.load = push_of(body, f, c, v, s).force;
+      f.held = held_by_shear(f, c, v, s);
+    }
   }
   for (const Contact& c : contacts) footings[c.footing].answer = answer_of(body, footings[c.footing], c, v, s);
   if (!contacts.empty()) {

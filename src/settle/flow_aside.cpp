@@ -49,6 +49,10 @@ struct Patch {
     const double y = w.y / l22;
     return unit({(w.x - l21 * y) / l11, y});
   }
+  // How long the ellipse is in a direction.
+  double length(Flat direction) const {
+    return 2 * kRim * std::hypot(l11 * direction.x + l21 * direction.y, l22 * direction.y);
+  }
   // Where round the patch a place lies or what leaves it in `direction` comes out, in sectors from 0 to kSectors.
   double side_of(Flat w) const {
     const double turn = std::atan2(w.y, w.x) / (2 * std::numbers::pi);
@@ -105,6 +109,10 @@ double squeeze_out(const state::Body& body, const Patch& patch, std::span<const 
   const double going = std::hypot(body.velocity.x, body.velocity.y), speed_of_body = length(body.velocity);
   const double rolls = speed_of_body > 0 ? std::sqrt(going / speed_of_body) : 0;
   const Flat along = rolls * unit({body.velocity.x, body.velocity.y});
+  // What leaves abeam does so over the way of this step: all of it in the middle would lie in heaps, a step's way
+  // apart, and slide back.
+  const double length_along = patch.length(unit({body.velocity.x, body.velocity.y}));
+  const double gathered = going > 0 ? 1 - std::min(1.0, going * step.dt / length_along) : 1;
   for (const std::uint32_t i : carried) {
     if (p.yielded[i] <= 0) continue;
     const std::uint32_t column = p.column[i];
@@ -112,7 +120,8 @@ double squeeze_out(const state::Body& body, const Patch& patch, std::span<const 
     // The soil has failed where Bekker's curve has passed what it bears.
     const double pressed = laws::bekker_pressure<double>(medium, soil.plastic[column], body.patch_width);
     if (pressed < laws::bearing_capacity(medium, body.patch_width, step.gravity)) continue;
-    const Vec3d arm = to_double(p.position(i)) - body.position;
+    // In the middle of the step, where what rolls came down as much as the column has sunk.
+    const Vec3d arm = to_double(p.position(i)) - (body.position - 0.5 * step.dt * body.velocity);
     const Vec3d moves = body.velocity + cross(body.angular_velocity, arm);
     // What the body comes down explains a part of the sinkage; it moved sideways over the rest.
     const double pushed = 1 - std::min(1.0, std::max(0.0, -moves.z) * step.dt / p.yielded[i]);
@@ -126,7 +135,7 @@ double squeeze_out(const state::Body& body, const Patch& patch, std::span<const 
 
     // Soil laid down before a body that rolls on would only be rolled over again: it leaves abeam.
     const Flat offset = place_of(ground, p.vertex[i]) - patch.centre;
-    const Flat down = patch.downhill(offset), from = offset - (1 - pushed) * dot(offset, along) * along;
+    const Flat down = patch.downhill(offset), from = offset - (1 - pushed) * gathered * dot(offset, along) * along;
     const Flat direction = (1 - pushed) * unit(down - dot(down, along) * along) + pushed * unit({moves.x, moves.y});
     const auto [low, high, share] = split(patch.way_out(from, direction));
     volume[low] += (1 - share) * flows, volume[high] += share * flows;

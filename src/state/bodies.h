@@ -35,7 +35,7 @@ struct Body {
   std::uint32_t last_vertex = kNone;  ///< where the half-edge walk starts: last contact
   bool touching = false;              ///< pressed ground at the end of the last step
   double patch_width = 0;   ///< b of Bekker's law, m: radius of a round patch that it touches, smaller side of others
-  double weight_share = 1;  ///< share of its weight that it has: grows to 1 while it is set down
+  double weight_share = 1;  ///< grows to 1 while it is set down, and with it, smoothly, what it has of its weight
   double impact_speed = 0;  ///< m/s, what restitution gives back a share of; 0 when nothing is owed
   /// N s and N m s, of joints and other bodies: what the next step starts from, and what the last one had
   std::array<double, 6> held_impulse{}, last_impulse{};
