@@ -4,7 +4,11 @@
 
 namespace divot::viewer {
 
-bool is_ball(const BodyView& body) { return !body.shape || std::holds_alternative<Sphere>(*body.shape); }
+double ball_radius(const BodyView& body) {
+  if (!body.shape) return body.radius;
+  const auto* ball = std::get_if<Sphere>(&*body.shape);
+  return ball ? ball->radius : 0;
+}
 
 BodyNode::BodyNode(osg::ref_ptr<osg::Node> sphere)
     : sphere_(std::move(sphere)), root_(new osg::Group), balls_(new osg::Group), solids_(new osg::Group) {
@@ -23,7 +27,7 @@ void BodyNode::update(const Vec3d& origin, std::span<const BodyView> bodies) {
     const BodyView& body = bodies[i];
     const Vec3d p = body.position - origin;
     const Quat& q = body.orientation;
-    const double size = is_ball(body) ? body.radius : 1;
+    const double ball = ball_radius(body), size = ball > 0 ? ball : 1;
     Place& place = places_[i];
     if (!place.node || place.shape != body.shape) make_place(place, body.shape);
     place.node->setMatrix(osg::Matrixd::scale(size, size, size) * osg::Matrixd::rotate(osg::Quat(q.x, q.y, q.z, q.w)) *

@@ -38,7 +38,7 @@ class BodyNode {
   std::vector<Place> places_;  // [body]
 };
 
-/// Whether a body is a ball; those without a shape are.
-bool is_ball(const BodyView& body);
+/// m; 0: no ball. Bodies without a shape are balls. A ball's own, however far its centre of mass lies from its middle.
+double ball_radius(const BodyView& body);
 
 }  // namespace divot::viewer

@@ -126,19 +126,20 @@ void Lighting::set_haze(double distance) { haze_range_->set(osg::Vec2(osg::Vec2d
 void Lighting::set_occluders(const Vec3d& origin, std::span<const BodyView> bodies) {
   std::vector<std::size_t> order(bodies.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::erase_if(order, [&](std::size_t i) { return !is_ball(bodies[i]); });
+  std::erase_if(order, [&](std::size_t i) { return ball_radius(bodies[i]) == 0; });
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return bodies[a].radius > bodies[b].radius; });
+                   [&](std::size_t a, std::size_t b) { return ball_radius(bodies[a]) > ball_radius(bodies[b]); });
   order.resize(std::min<std::size_t>(order.size(), kMaxOccluders));
   set_ball_count(quality_ == Quality::fast ? std::min<std::size_t>(order.size(), kMaxBallShadows) : 0);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const BodyView& body = bodies[order[i]];
     const Vec3d p = body.position - origin;
+    const double radius = ball_radius(body);
     const auto index = static_cast<unsigned>(i);
-    occluders_->setElement(index, osg::Vec4(osg::Vec4d(p.x, p.y, p.z, body.radius)));
+    occluders_->setElement(index, osg::Vec4(osg::Vec4d(p.x, p.y, p.z, radius)));
     if (i >= ball_count_) continue;
     const osg::Vec3d place = osg::Vec3d(p.x, p.y, p.z) * shadow_space_;
-    ball_shadows_->setElement(index, osg::Vec4(osg::Vec4d(place, 2 * shadow_radius_ / body.radius)));
+    ball_shadows_->setElement(index, osg::Vec4(osg::Vec4d(place, 2 * shadow_radius_ / radius)));
   }
   occluder_count_->set(static_cast<int>(order.size()));
 }

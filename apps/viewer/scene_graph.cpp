@@ -82,7 +82,7 @@ void SceneGraph::update(const Snapshot& snapshot) {
   if (look_.effects) explosions_.update(surface.origin, snapshot.bombs, snapshot.time, eye_, look_.quality);
   lit().lighting().set_occluders(surface.origin, snapshot.bodies);
   const bool rolls = std::any_of(snapshot.bodies.begin(), snapshot.bodies.end(),
-                                 [](const BodyView& b) { return !is_ball(b) && b.velocity != Vec3d(); });
+                                 [](const BodyView& b) { return ball_radius(b) == 0 && b.velocity != Vec3d(); });
   renew_shadows(rolls || !snapshot.dirty.empty());
 }
 

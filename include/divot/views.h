@@ -45,7 +45,7 @@ struct ParticleView {
 /// A body as it is now.
 struct BodyView {
   std::string name;                    ///< as in the scene
-  double radius = 0;                   ///< m, of the ball round its centre of mass that holds it: a ball's own
+  double radius = 0;                   ///< m, of the ball round its centre of mass that holds it
   double mass = 0;                     ///< kg
   Vec3d position;                      ///< of the shape's origin, m, in the terrain's coordinates
   Quat orientation;                    ///< of the shape's axes
