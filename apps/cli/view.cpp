@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/scene_input.h"
+#include "viewer/heap.h"
 #include "viewer/window.h"
 
 namespace divot::cli {
@@ -24,6 +25,7 @@ int exit_status(const Errors& errors) {
 int view(const ViewOptions& options) {
   const auto scene = load(options.scene);
   if (!scene) return report(scene.error(), kBadInput);
+  viewer::keep_freed_memory();
   auto window = viewer::Window::create(
       *scene, std::make_shared<const Jobs>(options.scene.threads),
       {.width = options.width, .height = options.height, .quality = quality_of(options.quality)});

@@ -84,7 +84,7 @@ void main() { gl_FragColor = vec4(1.0); }
 
 inline constexpr char kBackgroundVertex[] = R"(#version 130
 uniform vec3 background_top, background_bottom;
-out vec3 color;
+noperspective out vec3 color;
 void main() {
   color = mix(background_bottom, background_top, smoothstep(0.0, 1.0, 0.5 + 0.5 * gl_Vertex.y));
   gl_Position = vec4(gl_Vertex.xy, 1.0, 1.0);
@@ -92,7 +92,7 @@ void main() {
 )";
 
 inline constexpr char kBackgroundFragment[] = R"(
-in vec3 color;
+noperspective in vec3 color;
 void main() {
 #ifdef DITHER
   // Half a step of noise hides the bands of 8-bit colour.
@@ -130,7 +130,7 @@ void main() { gl_FragColor = vec4(color, 1.0); }
 // on.
 inline constexpr char kPointVertex[] = R"(#version 130
 uniform float point_size;
-out vec4 tint;
+flat out vec4 tint;
 void main() {
   tint = gl_Color;
   gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
@@ -140,15 +140,15 @@ void main() {
 )";
 
 inline constexpr char kTintFragment[] = R"(#version 130
-in vec4 tint;
+flat in vec4 tint;
 void main() { gl_FragColor = tint; }
 )";
 
 // Soft round dabs that face the eye. The texture coordinate holds the corner, -1 or 1, and the radius in metres.
 // Colours are multiplied by their opacity beforehand, so that flashes can add light.
 inline constexpr char kPuffVertex[] = R"(#version 130
-out vec2 corner;
-out vec4 tint;
+noperspective out vec2 corner;
+flat out vec4 tint;
 void main() {
   corner = gl_MultiTexCoord0.xy;
   tint = gl_Color;
@@ -159,8 +159,8 @@ void main() {
 )";
 
 inline constexpr char kPuffFragment[] = R"(#version 130
-in vec2 corner;
-in vec4 tint;
+noperspective in vec2 corner;
+flat in vec4 tint;
 void main() {
   float soft = max(1.0 - dot(corner, corner), 0.0);
   gl_FragColor = tint * soft * soft;
@@ -169,7 +169,7 @@ void main() {
 
 // A picture over all of the viewport.
 inline constexpr char kStretchVertex[] = R"(#version 130
-out vec2 place;
+noperspective out vec2 place;
 void main() {
   place = 0.5 + 0.5 * gl_Vertex.xy;
   gl_Position = vec4(gl_Vertex.xy, 0.0, 1.0);
@@ -178,7 +178,7 @@ void main() {
 
 inline constexpr char kStretchFragment[] = R"(#version 130
 uniform sampler2D picture;
-in vec2 place;
+noperspective in vec2 place;
 void main() { gl_FragColor = texture(picture, place); }
 )";
 

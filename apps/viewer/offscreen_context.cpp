@@ -48,7 +48,8 @@ EGLDisplay surfaceless_display() {
   return get_display ? get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr) : EGL_NO_DISPLAY;
 }
 
-// True when there is a configuration with that many samples a pixel; 0 asks for none.
+// True when there is a configuration with that many samples a pixel; 0 asks for none. EGL puts those of the deepest
+// colours first, which software renderers take much longer to write: the one wanted is like a window's, of 8 bits.
 bool choose_config(EGLDisplay display, int samples, EGLConfig& config) {
   const std::array<EGLint, 17> wanted = {EGL_SURFACE_TYPE,
                                          EGL_PBUFFER_BIT,
@@ -67,8 +68,15 @@ bool choose_config(EGLDisplay display, int samples, EGLConfig& config) {
                                          EGL_SAMPLES,
                                          samples,
                                          EGL_NONE};
+  std::array<EGLConfig, 128> found;
   EGLint count = 0;
-  return eglChooseConfig(display, wanted.data(), &config, 1, &count) && count > 0;
+  if (!eglChooseConfig(display, wanted.data(), found.data(), static_cast<EGLint>(found.size()), &count)) return false;
+  for (EGLint i = 0; i < count; ++i) {
+    config = found[static_cast<std::size_t>(i)];
+    EGLint red = 0;
+    if (eglGetConfigAttrib(display, config, EGL_RED_SIZE, &red) && red == 8) return true;
+  }
+  return count > 0;
 }
 
 }  // namespace

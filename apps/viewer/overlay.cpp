@@ -32,6 +32,9 @@ osg::ref_ptr<osgText::Text> make_text(float size, const osg::Vec4& color) {
   // warning.
   std::error_code missing;
   if (std::filesystem::exists(kFont, missing)) text->setFont(kFont);
+  // Letters face the eye. Software renderers would still pay for looking at them from the side.
+  if (text->getFont()) text->getFont()->setMaxAnisotropy(1);
+  text->setShaderTechnique(osgText::NO_TEXT_SHADER);
   text->setCharacterSize(size);
   const auto resolution = static_cast<unsigned>(std::lround(size));
   text->setFontResolution(resolution, resolution);

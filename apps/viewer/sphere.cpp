@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <osg/CullFace>
 #include <osg/Geometry>
 #include <osg/LOD>
 
@@ -39,6 +40,7 @@ osg::ref_ptr<osg::Geometry> make_globe(unsigned sectors, GLenum mode) {
   globe->setVertexArray(points);
   globe->setNormalArray(points, osg::Array::BIND_PER_VERTEX);
   globe->addPrimitiveSet(indices);
+  if (mode == GL_TRIANGLES) globe->getOrCreateStateSet()->setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
   return globe;
 }
 
@@ -47,10 +49,11 @@ osg::ref_ptr<osg::Geometry> make_globe(unsigned sectors, GLenum mode) {
 osg::ref_ptr<osg::Node> make_sphere() {
   osg::ref_ptr<osg::LOD> levels = new osg::LOD;
   levels->setRangeMode(osg::LOD::PIXEL_SIZE_ON_SCREEN);
-  levels->addChild(make_globe(12, GL_TRIANGLES), 0, 12);
-  levels->addChild(make_globe(32, GL_TRIANGLES), 12, 90);
-  levels->addChild(make_globe(64, GL_TRIANGLES), 90, 400);
-  levels->addChild(make_globe(128, GL_TRIANGLES), 400, 1e9f);
+  // Edges stay within a fifth of a pixel of a circle. The size on the screen is twice the diameter.
+  levels->addChild(make_globe(12, GL_TRIANGLES), 0, 24);
+  levels->addChild(make_globe(32, GL_TRIANGLES), 24, 180);
+  levels->addChild(make_globe(64, GL_TRIANGLES), 180, 800);
+  levels->addChild(make_globe(128, GL_TRIANGLES), 800, 1e9f);
   return levels;
 }
 

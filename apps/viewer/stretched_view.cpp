@@ -29,7 +29,7 @@ osg::ref_ptr<osg::Camera> make_pass(osg::Node& scene, osg::Texture2D& target) {
   pass->setRenderOrder(osg::Camera::PRE_RENDER);
   pass->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
   pass->setViewport(0, 0, target.getTextureWidth(), target.getTextureHeight());
-  pass->setClearMask(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  pass->setClearMask(GL_DEPTH_BUFFER_BIT);  // the background covers every pixel
   pass->attach(osg::Camera::COLOR_BUFFER, &target);
   pass->attach(osg::Camera::DEPTH_BUFFER, GL_DEPTH_COMPONENT24);
   pass->addChild(&scene);

@@ -5,6 +5,7 @@
 #include "viewer/camera_control.h"
 #include "viewer/color_scale.h"
 #include "viewer/live_world.h"
+#include "viewer/pixel_share.h"
 #include "viewer/stage_meter.h"
 #include "viewer/toolbox.h"
 
@@ -47,6 +48,56 @@ TEST(LiveWorld, TimeLagsWhereStepsCannotFollow) {
   for (int i = 0; i < 100; ++i) live.advance(0.01);
   EXPECT_LT(live.world().time(), 1.1);
   EXPECT_FALSE(live.lagging());
+}
+
+// A sledge on two runners, held by springs.
+Scene joined_scene() {
+  Scene scene;
+  scene.terrain.shape = GridTerrain{.columns = 40, .rows = 40, .spacing = 1};
+  scene.bodies = {{.name = "stone", .shape = Sphere{0.5}, .mass = 10, .position = {-5, 0, 2}},
+                  {.name = "sledge", .shape = Box{{2, 1, 0.4}}, .mass = 100, .position = {5, 5, 1}},
+                  {.name = "left", .shape = Box{{2, 0.2, 0.2}}, .mass = 5, .position = {5, 5.5, 0.5}},
+                  {.name = "right", .shape = Box{{2, 0.2, 0.2}}, .mass = 5, .position = {5, 4.5, 0.5}}};
+  scene.joints = {{.name = "l", .type = JointType::fixed, .first = "sledge", .second = "left"},
+                  {.name = "r", .type = JointType::fixed, .first = "sledge", .second = "right"},
+                  {.name = "t", .type = JointType::fixed, .first = "", .second = "sledge"}};
+  return scene;
+}
+
+TEST(Toolbox, WhatIsJoinedIsDroppedAsOne) {
+  World world = World::create(joined_scene(), std::make_shared<const Jobs>(1)).value();
+  Toolbox tools(world);
+  std::vector<std::string> offered;
+  for (int i = 0; i < 4; ++i, tools.next_body()) offered.push_back(tools.body_text());
+  // The stone, the sledge and two balls; the choice begins with the first ball.
+  EXPECT_EQ(offered[0].substr(0, 10), "small ball");
+  EXPECT_EQ(offered[2].substr(0, 5), "stone");
+  EXPECT_EQ(offered[3], "sledge and 2 joined to it, 2.27 m, 110 kg");
+  for (int i = 0; i < 3; ++i) tools.next_body();
+  ASSERT_TRUE(tools.drop(world, -5, -8));
+  ASSERT_EQ(world.bodies().size(), 7u);
+  ASSERT_EQ(world.joints().size(), 5u) << "not the one with the terrain";
+  const auto between = [&](std::size_t a, std::size_t b) {
+    return length(world.bodies()[a].position - world.bodies()[b].position);
+  };
+  EXPECT_NEAR(world.bodies()[4].position.x, -5, 1e-9);
+  EXPECT_NEAR(world.bodies()[4].position.y, -8, 1e-9);
+  EXPECT_GT(world.bodies()[5].position.z, 0.2);
+  for (int i = 0; i < 120; ++i) world.step();
+  EXPECT_LT(world.bodies()[4].position.z, 0.8) << "it fell";
+  for (const std::size_t runner : {5u, 6u}) EXPECT_NEAR(between(4, runner), between(1, runner - 3), 0.02);
+  // Again: names and joints do not get into each other's way.
+  ASSERT_TRUE(tools.drop(world, 8, -8));
+  EXPECT_EQ(world.bodies().size(), 10u);
+  EXPECT_EQ(world.joints().size(), 7u);
+}
+
+TEST(Toolbox, SaysWhereThereIsNoGround) {
+  World world = World::create(joined_scene(), std::make_shared<const Jobs>(1)).value();
+  const auto dropped = Toolbox(world).drop(world, 1000, 0);
+  ASSERT_FALSE(dropped);
+  EXPECT_NE(dropped.error().front().text().find("no ground"), std::string::npos);
+  EXPECT_EQ(world.bodies().size(), 4u);
 }
 
 TEST(LiveWorld, RestartForgetsWhatWasAdded) {
@@ -106,6 +157,44 @@ TEST(Toolbox, BallsAreWeighedForTheSoilBelowThem) {
   ASSERT_TRUE(tools.drop(world, 5, 15));
   ASSERT_TRUE(tools.drop(world, 25, 15));
   EXPECT_GT(world.bodies()[0].mass, 10 * world.bodies()[1].mass) << "asphalt carries more than mud";
+}
+
+// A renderer that takes `full` seconds for all pixels, a quarter of it whatever their number.
+double share_after(PixelShare& pixels, double full, double seconds) {
+  for (double time = 0; time < seconds;) {
+    const double picture = full * (0.25 + 0.75 * pixels.share() * pixels.share());
+    pixels.see(picture);
+    time += picture;
+  }
+  return pixels.share();
+}
+
+TEST(PixelShare, FollowsWhatIsAffordable) {
+  PixelShare pixels(1.0 / 60);
+  EXPECT_EQ(share_after(pixels, 0.016, 10), 1);
+  const double slow = share_after(pixels, 0.025, 10);
+  EXPECT_LT(slow, 1);
+  EXPECT_GT(slow, 0.5);
+  EXPECT_EQ(share_after(pixels, 0.2, 10), 0.5);
+  EXPECT_EQ(share_after(pixels, 0.2, 10), 0.5) << "no less than half";
+  EXPECT_LT(share_after(pixels, 0.008, 1), 1) << "step by step, so that sharpness does not flicker";
+  EXPECT_EQ(share_after(pixels, 0.008, 10), 1);
+}
+
+TEST(PixelShare, OneLongPictureIsNoReason) {
+  PixelShare pixels(1.0 / 60);
+  for (int i = 0; i < 300; ++i) {
+    pixels.see(i % 100 == 50 ? 2 : 0.012);
+    EXPECT_EQ(pixels.share(), 1) << i;
+  }
+}
+
+TEST(PixelShare, StaysWhereItFits) {
+  PixelShare pixels(1.0 / 60);
+  share_after(pixels, 0.022, 2);
+  const double share = pixels.share();
+  EXPECT_LT(share, 1);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(share_after(pixels, 0.022, 1), share) << i;
 }
 
 TEST(CameraControl, KeepsWhatItShould) {

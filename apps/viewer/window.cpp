@@ -13,6 +13,7 @@
 #include "viewer/live_view.h"
 #include "viewer/offscreen_context.h"
 #include "viewer/pixel_reader.h"
+#include "viewer/pixel_share.h"
 #include "viewer/saves.h"
 #include "viewer/screen.h"
 #include "viewer/stretched_view.h"
@@ -46,8 +47,8 @@ class Lap {
 
 Result<void> check(const WindowOptions& options) {
   const auto is_size = [](int size) { return size >= kLeastSize && size <= kLargestSize; };
-  if (!(options.fast_share > 0 && options.fast_share <= 1)) {
-    return failure(fmt::format("a fast picture cannot have {:g} of the pixels each way", options.fast_share),
+  if (const double share = options.fast_share.value_or(1); !(share > 0 && share <= 1)) {
+    return failure(fmt::format("a fast picture cannot have {:g} of the pixels each way", share),
                    "more than 0, at most 1", "fast_share");
   }
   if (is_size(options.width) && is_size(options.height)) return {};
@@ -78,11 +79,13 @@ struct Window::Impl {
   void carry_out_commands();
   void window_action(Action action);
   void follow_size();
+  bool stretches();
   void follow_quality();
   void place_camera();
   void update_hud();
   void draw();
   void measure(double drawing);
+  void learn(const FrameCost& cost);
   void wait();
   void say(const std::string& text);
   void save_picture();
@@ -93,11 +96,13 @@ struct Window::Impl {
   osg::ref_ptr<osgViewer::Viewer> viewer;
   LiveView view;
   StretchedView stretched{view.scene().root()};
+  PixelShare affordable{1 / kMostPictures};
   Hud hud;
   osg::ref_ptr<Input> input = new Input;
   osg::ref_ptr<PixelReader> reader = new PixelReader;
   StageMeter stages;
   int width = 0, height = 0;  // pixels
+  double share = 1;           // of them each way, that the scene is drawn with
   bool help = false, picture_wanted = false;
   Clock::time_point start = Clock::now(), last = start, message_end = start;
   std::string message;
@@ -169,8 +174,17 @@ void Window::Impl::follow_size() {
   hud.resize(width, height);
 }
 
+// Lines would blur, and cost little.
+bool Window::Impl::stretches() {
+  const Look& look = view.scene().look();
+  return look.quality == Quality::fast && !look.wireframe;
+}
+
+// What is drawn covers every pixel: where it is stretched there is nothing to clear, otherwise only depth.
 void Window::Impl::follow_quality() {
-  stretched.set_size(width, height, view.scene().look().quality == Quality::fast ? options.fast_share : 1);
+  share = stretches() ? options.fast_share.value_or(affordable.share()) : 1;
+  stretched.set_size(width, height, share);
+  viewer->getCamera()->setClearMask(share < 1 ? 0 : GL_DEPTH_BUFFER_BIT);
 }
 
 void Window::Impl::place_camera() {
@@ -225,6 +239,7 @@ FrameCost Window::Impl::show(double passed) {
   cost.hud_ms = lap();
   draw();
   cost.draw_ms = lap();
+  cost.share = share;
   return cost;
 }
 
@@ -243,6 +258,12 @@ void Window::Impl::measure(double drawing) {
   slow_time = drawing > kSlowPicture ? slow_time + drawing : 0;
   if (options.quality || view.scene().look().quality == Quality::fast || slow_time < kPatience) return;
   view.set_quality(Quality::fast);
+}
+
+// Fewer pixels do not help where steps are what takes long: they count for half of a picture's time at most.
+void Window::Impl::learn(const FrameCost& cost) {
+  if (!stretches()) return;
+  affordable.see(1e-3 * cost.draw_ms + std::min(1e-3 * (cost.all_ms() - cost.draw_ms), 0.5 / kMostPictures));
 }
 
 // Sleeps where the display does not wait itself.
@@ -298,7 +319,7 @@ bool Window::frame() {
   w.viewer->advance();
   w.viewer->eventTraversal();
   if (w.viewer->done() || !w.viewer->isRealized()) return false;
-  w.show(passed);
+  w.learn(w.show(passed));
   return true;
 }
 
@@ -311,6 +332,7 @@ FrameCost Window::frame_after(double seconds) {
   FrameCost cost = w.show(seconds);
   glFinish();
   cost.draw_ms = lap() - cost.step_ms - cost.update_ms - cost.hud_ms;
+  w.learn(cost);
   return cost;
 }
 

@@ -18,7 +18,9 @@ namespace divot::viewer {
 struct WindowOptions {
   int width = 1280, height = 720;       ///< pixels, [64, 16384]
   std::optional<Quality> quality = {};  ///< empty: fine on a graphics card as long as it keeps up, else fast
-  double fast_share = 0.75;             ///< (0, 1], of the pixels each way that a fast picture is drawn with
+  /// (0, 1], of the pixels each way that a fast picture is drawn with. Empty: as many as keep up with 60 pictures a
+  /// second, at least 0.5.
+  std::optional<double> fast_share = {};
   bool paused = false;
   bool show_numbers = true;  ///< the heads-up display
   bool effects = true;       ///< flash and dust of explosions
@@ -38,6 +40,7 @@ struct FrameCost {
   double update_ms = 0;  ///< what changed is copied, normals made anew
   double hud_ms = 0;     ///< numbers over the picture
   double draw_ms = 0;    ///< sent and drawn, until the driver says that it is done
+  double share = 1;      ///< of the pixels each way that it was drawn with
   double all_ms() const { return step_ms + update_ms + hud_ms + draw_ms; }
 };
 
