@@ -96,8 +96,11 @@ void LiveView::throw_at(const WindowPoint& at, double aspect, bool bomb) {
 }
 
 void LiveView::restart() {
-  tell(live_.restart());
+  const auto restarted = live_.restart();
+  tell(restarted);
+  if (!restarted) return;
   followed_.reset();
+  scene_.begin_another_world();
 }
 
 void LiveView::tell(const Result<void>& result) {

@@ -62,6 +62,12 @@ void SceneGraph::set_look(const Look& look) {
   color_by_->set(static_cast<int>(look.color));
 }
 
+void SceneGraph::begin_another_world() {
+  terrain_.forget();
+  fine_.lighting().renew_shadows();
+  fast_.lighting().renew_shadows();
+}
+
 void SceneGraph::update(const Snapshot& snapshot) {
   const SurfaceView& surface = snapshot.surface;
   if (!std::exchange(has_looks_, true)) terrain_.set_looks(soil_looks(snapshot.materials, snapshot.folder));

@@ -27,6 +27,9 @@ class SceneGraph {
   void set_look(const Look& look);
   const Look& look() const { return look_; }
 
+  /// What is updated next is another world, of the same materials.
+  void begin_another_world();
+
   /// Takes over the world as it is now; see TerrainNode::update for its cost.
   void update(const Snapshot& snapshot);
 

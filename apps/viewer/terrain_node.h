@@ -19,6 +19,9 @@ class TerrainNode {
   /// materials in them have changed. [O(faces) the first time, then O(chunks + dirty chunks)]
   void update(const SurfaceView& surface, std::span<const DirtyRange> dirty, const Sinkage& sinkage);
 
+  /// Takes over all of it in the next update(): that of another world, which only tells what moved in it.
+  void forget() { vertex_count_ = 0; }
+
   /// Marks which vertices are awake particles; ids, ascending. [O(chunks + awake)]
   void mark_awake(std::span<const std::uint32_t> awake);
 

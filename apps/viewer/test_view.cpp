@@ -146,6 +146,58 @@ TEST_F(View, ColoursAndParticlesShow) {
   }
 }
 
+// Pixels of the line of tools that differ.
+int differing_tools(const Image& a, const Image& b) {
+  const std::size_t from = 3 * static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height - 40);
+  int count = 0;
+  for (std::size_t i = from; i < a.rgb.size(); i += 3) count += std::abs(a.rgb[i] - b.rgb[i]) > 40;
+  return count;
+}
+
+// One window for all keys that no other test presses.
+TEST_F(View, KeysDoWhatTheHelpSays) {
+  ViewSession view(display, kBall, {"--quality", "fast"});
+  const auto summary = [&] { return nlohmann::json::parse(view.summary()); };
+  const auto time = [&] { return summary()["simulated_s"].get<double>(); };
+  view.press("space");
+  Image last = view.picture();
+  const auto tools_change = [&](const char* key) {
+    view.press(key);
+    const Image now = view.picture();
+    const int changed = differing_tools(last, now);
+    last = now;
+    EXPECT_GT(changed, 30) << key;
+  };
+  const double paused = time();
+  view.press("Right");
+  EXPECT_NEAR(time(), paused + 1.0 / 60, 1e-9);
+  view.press("v");
+  const Image boxes = view.picture();
+  EXPECT_GT(differing(last, boxes, 20), 0.001) << "boxes";
+  last = boxes;
+  for (const char* key : {"plus", "minus", "minus", "Tab", "f", "f"}) tools_change(key);
+  // What was chosen is what is thrown: half of 10 kt.
+  view.click(420, 220);
+  view.press("b");
+  view.press("Right");
+  const auto thrown = summary();
+  ASSERT_EQ(thrown["craters"].size(), 1u);
+  EXPECT_EQ(thrown["craters"][0]["yield_t"].get<double>(), 5000);
+  ASSERT_EQ(thrown["bodies"].size(), 2u);
+  EXPECT_EQ(thrown["bodies"][1]["name"].get<std::string>(), "boulder 2");
+  view.press("m");
+  view.press("m");
+  const double before = time();
+  view.press("space");
+  sleep(2);
+  view.press("space");
+  const double passed = time() - before;
+  EXPECT_GT(passed, 0);
+  EXPECT_LT(passed, 1) << "a sixteenth of real time";
+  view.press("q");
+  EXPECT_EQ(view.process().wait(20), 0);
+}
+
 TEST_F(View, ResizeIsFollowed) {
   ViewSession view(display, kPlain, {"--quality", "fast"});
   view.resize(800, 500);
@@ -285,6 +337,22 @@ TEST(ViewFast, IsStretchedOverTheSamePlaces) {
   EXPECT_GT(differing(whole, stretched, 2), 0.01);
   EXPECT_LT(differing(whole, stretched, 24), 0.02);
   EXPECT_GT(differing(whole, coarse, 24), 2 * differing(whole, stretched, 24));
+}
+
+// All of the ground, not only what moves from then on.
+TEST(ViewRestart, ShowsTheGroundAsItWas) {
+  const Scene scene = parse_scene(kPlain, "plain.toml").value();
+  auto window = Window::create_offscreen(scene, std::make_shared<const Jobs>(1),
+                                         {.width = 480, .height = 300, .fast_share = 1, .effects = false});
+  ASSERT_TRUE(window) << window.error().front().text();
+  window->frame_after(0);
+  const Image start = window->capture();
+  window->click(0.2, 0.1);
+  for (int i = 0; i < 60; ++i) window->frame_after(1.0 / 60);
+  EXPECT_GT(differing(start, window->capture(), 20), 0.02);
+  window->restart();
+  window->frame_after(0);
+  EXPECT_EQ(differing(start, window->capture(), 2), 0);
 }
 
 TEST(ViewFast, ShareIsChecked) {

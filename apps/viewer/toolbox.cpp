@@ -117,7 +117,8 @@ std::string Toolbox::body_text() const {
   std::string text = first.name.empty() ? "body" : first.name;
   if (tool.bodies.size() > 1) text += fmt::format(" and {} joined to it", tool.bodies.size() - 1);
   text += fmt::format(", {:.3g} m", 2 * tool.radii.front());
-  return tool.weighed ? text + ", as heavy as its soil just carries" : fmt::format("{}, {:.3g} kg", text, mass);
+  if (tool.weighed) return text + ", as heavy as its soil just carries";
+  return mass < 100 ? fmt::format("{}, {:.3g} kg", text, mass) : fmt::format("{}, {:.0f} kg", text, mass);
 }
 
 Result<void> Toolbox::bomb(World& world, double x, double y) const {
