@@ -15,7 +15,8 @@ namespace {
 constexpr float kDetailWaves = 5;     // longest waves of colour across the region
 constexpr double kFlatRelief = 0.01;  // terrain whose relief is a smaller share of its extent has no colours of height
 constexpr double kDenseCell = 1.0 / 360;  // of the picture's height: a mesh cell of two pixels
-constexpr int kShadowPause = 3;           // pictures between shadow maps where the ground moves and quality is fast
+// Simulated s between two shadow maps where quality is fast and only the ground moves, or bodies too.
+constexpr double kGroundPause = 0.06, kBodyPause = 0.03;
 
 void show(osg::Node& node, bool shown) { node.setNodeMask(shown ? ~0u : 0u); }
 
@@ -89,7 +90,7 @@ void SceneGraph::update(const Snapshot& snapshot) {
   lit().lighting().set_occluders(surface.origin, snapshot.bodies);
   const bool rolls = std::any_of(snapshot.bodies.begin(), snapshot.bodies.end(),
                                  [](const BodyView& b) { return ball_radius(b) == 0 && b.velocity != Vec3d(); });
-  renew_shadows(rolls || !snapshot.dirty.empty());
+  renew_shadows(snapshot.time, !snapshot.dirty.empty(), rolls);
 }
 
 void SceneGraph::show_scale(const Snapshot& snapshot) {
@@ -104,12 +105,17 @@ void SceneGraph::show_scale(const Snapshot& snapshot) {
   ramp_range_->set(osg::Vec2(scale_.low, 1 / (scale_.high - scale_.low)));
 }
 
-// Fine shadows follow bodies too, which move all the time. Fast ones are the ground's, and may be a little late.
-void SceneGraph::renew_shadows(bool ground_moved) {
+// Fine shadows are always up to date. Fast ones, but those of balls, may be a little late, and catch up when time
+// stops.
+void SceneGraph::renew_shadows(double time, bool ground_moved, bool bodies_move) {
   if (look_.quality == Quality::fine) return fine_.lighting().renew_shadows();
-  if (!ground_moved && pictures_behind_ == 0) return;
-  if (++pictures_behind_ <= kShadowPause) return;
-  pictures_behind_ = 0;
+  const bool stopped = std::exchange(time_, time) == time;
+  shadows_late_ = shadows_late_ || ground_moved || (bodies_move && !stopped);
+  if (!shadows_late_) return;
+  const double age = time - shadow_time_;
+  if (!stopped && age >= 0 && age < (bodies_move ? kBodyPause : kGroundPause)) return;
+  shadows_late_ = false;
+  shadow_time_ = time;
   fast_.lighting().renew_shadows();
 }
 

@@ -54,7 +54,7 @@ class SceneGraph {
 
  private:
   void show_scale(const Snapshot& snapshot);
-  void renew_shadows(bool ground_moved);
+  void renew_shadows(double time, bool ground_moved, bool bodies_move);
   LitView& lit() { return look_.quality == Quality::fast ? fast_ : fine_; }
 
   osg::ref_ptr<osg::Group> root_;
@@ -69,9 +69,10 @@ class SceneGraph {
   Look look_;
   ColorScale scale_;
   osg::Vec3d eye_;
-  double extent_ = 1;        // m, of the region that is looked at
-  double view_height_ = 1;   // m, that the picture shows from top to bottom where the camera looks at
-  int pictures_behind_ = 0;  // that the shadows of moving ground are
+  double extent_ = 1;                    // m, of the region that is looked at
+  double view_height_ = 1;               // m, that the picture shows from top to bottom where the camera looks at
+  double time_ = -1, shadow_time_ = -1;  // s, of the last update and of the world that fast shadows show
+  bool shadows_late_ = false;
   osg::ref_ptr<osg::Uniform> height_range_, detail_wave_, sinkage_scale_, ink_cell_, color_by_, ramp_, ramp_range_;
   osg::ref_ptr<osg::Group> lines_;
 };

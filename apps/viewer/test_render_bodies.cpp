@@ -70,6 +70,24 @@ TEST_P(RenderShapes, BoxesAreLongAndThrowShadows) {
   EXPECT_EQ(differing_at(bare, box, -away * std::sin(azimuth), -away * std::cos(azimuth), 0), 16);
 }
 
+TEST_P(RenderShapes, ShadowsKeepUpWithBodies) {
+  BodyView box = body(Box{{160, 40, 40}}, 85);
+  const RenderOptions options{.width = 320, .height = 180, .quality = GetParam(), .camera = kCamera};
+  auto followed = Renderer::create(options).value();
+  box.velocity = {0, 200, 0};
+  const auto show = [&](double time) {
+    followed.update(ground_.view(), {}, std::vector{box}, {}, {}, time);
+    return followed.pixels().value();
+  };
+  show(0);
+  box.position.y += 10;
+  const Image late = show(0.05);
+  EXPECT_LT(differing(late, draw({box})), 20) << "a twentieth of a second is not late";
+  box.position.y += 1;
+  show(0.055);
+  EXPECT_LT(differing(show(0.055), draw({box})), 20) << "it catches up when time stops";
+}
+
 TEST_P(RenderShapes, WheelsTurn) {
   BodyView wheel = body(Cylinder{.radius = 50, .length = 30}, 53);
   const Image bare = draw({}), before = draw({wheel});
