@@ -61,6 +61,9 @@ Result<Report> scaling(const Request& request);
 /// One crater on ground of 10^4 to 10^7 vertices: time of a step, memory, loading.
 Result<Report> terrain_size(const Request& request);
 
+/// Error and cost of uniform grids and of new triangles where the ground deforms, by the number of triangles.
+Result<Report> refinement(const Request& request);
+
 /// 1 to 1000 rolling balls and 1 to 100 bombs on one ground.
 Result<Report> bodies(const Request& request);
 

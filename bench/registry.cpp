@@ -11,6 +11,7 @@ std::span<const Bench> benches() {
       {"figure1", "parts of a step by update policy, the paper's Figure 1", &figure1},
       {"scaling", "a step with every particle awake, by particles and threads", &scaling},
       {"terrain_size", "the same crater on more and more ground", &terrain_size},
+      {"refinement", "error and cost by triangles, uniform and where the ground deforms", &refinement},
       {"bodies", "rolling balls and bombs by their number", &bodies},
       {"rolling", "spheres on soft soil, beside Chrono's SCM terrain", &rolling},
 #ifdef DIVOT_HAS_VIEWER

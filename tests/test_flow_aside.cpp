@@ -48,7 +48,7 @@ struct Pressed {
       p.hold[i] = Hold::carried, p.carrier[i] = 0, p.yielded[i] = 0.05f;
       p.z[i] = s.soil.rest[p.column[i]].z = -0.05f;
       s.soil.plastic[p.column[i]] = 0.05f;
-      s.soil.compacted[p.column[i]] = move_vertex(s.surface, p.vertex[i], p.position(i));
+      s.soil.compacted[p.column[i]] = state::move_vertex(s.surface, p.vertex[i], p.position(i));
       pressed += s.soil.compacted[p.column[i]];
     }
     bodies[0].velocity = velocity, bodies[0].patch_width = 0.2;

@@ -335,8 +335,10 @@ TEST(SceneErrors, OfTerrain) {
        "terrain.crs: means something only beside dem; expected it left out with grid"},
       {"grid = { columns = 3, rows = 3, spacing = 1 }\ndem = \"x\"",
        "terrain: holds grid and dem at once; expected one of them"},
-      {"dem = \"x\"\nrefine = { min_edge = 1 }",
-       "terrain.refine: refinement is not supported; this version keeps the triangles the terrain starts with"},
+      {"dem = \"x\"\nrefine = { min_edge = -1 }",
+       "terrain.refine.min_edge: -1 is out of range; expected a number >= 0 and <= 100000 (m)"},
+      {"dem = \"x\"\nrefine = { max_level = 2 }",
+       "terrain.refine.min_edge: is missing; expected a number >= 0 and <= 100000 (m)"},
       {"dem = \"x\"\nmaterial_map = 3",
        "terrain.material_map: 3 is a number; expected material_map = { image = \"road.png\", legend = { 0 = \"field\", "
        "255 = \"asphalt\" } }"},

@@ -336,7 +336,7 @@ TEST(World, ViewsAndCountsAgree) {
   for (std::size_t i = 0; i < p.vertices.size(); ++i) {
     EXPECT_EQ(world.surface().positions[p.vertices[i]], (Vec3{p.x[i], p.y[i], p.z[i]}));
   }
-  ASSERT_EQ(world.stages().size(), 8u);
+  ASSERT_EQ(world.stages().size(), 9u);
   for (const StageTime& stage : world.stages()) EXPECT_GE(stage.ms, 0) << stage.name;
   EXPECT_GE(world.stages()[5].calls, 30u) << "nothing moves before the bomb";
   EXPECT_EQ(world.updates().missed_pairs, 0u);

@@ -33,6 +33,11 @@ std::string flag_lines(const World& world, const RunTotals& totals) {
     text += line("note", fmt::format("in {} of {} steps the ground was softened to what the step can follow; a smaller "
                                      "dt avoids it",
                                      totals.substeps_limited, world.steps()));
+  if (const RefinementCounts counts = world.refinement(); counts.short_steps > 0)
+    text +=
+        line("note", fmt::format("in {} of {} steps the budget of {} new vertices left ground coarser than it should "
+                                 "be; raise terrain.refine.budget or min_edge",
+                                 counts.short_steps, world.steps(), counts.budget));
   if (totals.not_finite > 0)
     text +=
         line("note", fmt::format("in {} of {} steps a value left the range of numbers and what it belonged to was put "
@@ -47,6 +52,9 @@ std::string run_summary(const World& world, const RunTotals& totals, const std::
   std::string text = fmt::format("{}: {:.4g} s simulated in {:.3g} s, {} x real time\n", world.scene().name,
                                  world.time(), totals.wall_s, factor_text(world.time() / totals.wall_s));
   text += line("terrain", fmt::format("{} triangles", world.surface().triangles.size() / 3));
+  if (const RefinementCounts counts = world.refinement(); counts.on)
+    text += line("refined", fmt::format("to {:.3g} m, {} new vertices at most, {} at the end", counts.edge, counts.most,
+                                        counts.vertices));
   text += line("particles", fmt::format("{} awake at most", world.peak_particles()));
   for (const Crater& crater : world.craters()) text += crater_line(crater);
   const std::vector<BodyView> bodies = world.bodies();

@@ -72,7 +72,7 @@ void SceneGraph::begin_another_world() {
 void SceneGraph::update(const Snapshot& snapshot) {
   const SurfaceView& surface = snapshot.surface;
   if (!std::exchange(has_looks_, true)) terrain_.set_looks(soil_looks(snapshot.materials, snapshot.folder));
-  terrain_.update(surface, snapshot.dirty, snapshot.sinkage);
+  terrain_.update(surface, snapshot.dirty, snapshot.topology, snapshot.sinkage);
   if (look_.color == ColorBy::awake) terrain_.mark_awake(snapshot.particles.vertices);
   const float relief = terrain_.highest() - terrain_.lowest();
   const bool flat = relief < kFlatRelief * terrain_.bounds().extent();

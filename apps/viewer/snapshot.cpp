@@ -7,6 +7,7 @@ namespace divot::viewer {
 Snapshot take_snapshot(World& world) {
   return {.surface = world.surface(),
           .dirty = world.take_dirty(),
+          .topology = world.take_topology(),
           .particles = world.particles(),
           .bodies = world.bodies(),
           .bombs = world.bombs(),

@@ -18,6 +18,7 @@ namespace divot::viewer {
 struct Snapshot {
   SurfaceView surface;
   std::vector<DirtyRange> dirty;  ///< ascending, disjoint: what moved since the last snapshot
+  Topology topology;              ///< what became of the triangles since then
   ParticleView particles;
   std::vector<BodyView> bodies;
   std::vector<BombView> bombs;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <osg/Group>
 #include <vector>
 
 #include "divot/views.h"
 #include "viewer/camera.h"
+#include "viewer/terrain_cells.h"
 #include "viewer/terrain_chunk.h"
 
 namespace divot::viewer {
@@ -14,13 +16,15 @@ class TerrainNode {
  public:
   TerrainNode();
 
-  /// Takes over the ground. Chunks are made when it is seen first and again whenever it has other triangles than
-  /// before; otherwise only those that `dirty` (ascending, disjoint) touches are sent again, and cut again where
-  /// materials in them have changed. [O(faces) the first time, then O(chunks + dirty chunks)]
-  void update(const SurfaceView& surface, std::span<const DirtyRange> dirty, const Sinkage& sinkage);
+  /// Takes over the ground. Chunks are made when it is seen first, and again where `topology` says that triangles are
+  /// other ones; with an empty one all of them, whenever their number has changed. Otherwise only those that `dirty`
+  /// (ascending, disjoint) touches are sent again, and cut again where materials in them have changed. [O(faces) the
+  /// first time and with other triangles, then O(chunks + dirty chunks)]
+  void update(const SurfaceView& surface, std::span<const DirtyRange> dirty, const Topology& topology,
+              const Sinkage& sinkage);
 
   /// Takes over all of it in the next update(): that of another world, which only tells what moved in it.
-  void forget() { vertex_count_ = 0; }
+  void forget() { chunks_.clear(); }
 
   /// Marks which vertices are awake particles; ids, ascending. [O(chunks + awake)]
   void mark_awake(std::span<const std::uint32_t> awake);
@@ -54,14 +58,18 @@ class TerrainNode {
 
  private:
   void rebuild(const SurfaceView& surface, const Sinkage& sinkage);
+  std::vector<bool> follow(const SurfaceView& surface, const Topology& topology, const Sinkage& sinkage);
+  void make_chunk(const SurfaceView& surface, std::size_t cell, const Sinkage& sinkage);
   void list_parts();
   void measure(const SurfaceView& surface, const Sinkage& sinkage);
 
   osg::ref_ptr<osg::Group> ground_, mesh_, walls_;
   std::vector<osg::ref_ptr<osg::StateSet>> looks_;
   std::vector<std::uint8_t> ground_materials_;
-  std::vector<TerrainChunk> chunks_;
-  std::size_t vertex_count_ = 0, corner_count_ = 0;
+  TerrainCells cells_;
+  std::vector<std::optional<TerrainChunk>> chunks_;  // [cell] none where it has no triangles
+  std::size_t corner_count_ = 0;
+  float base_ = 0;  // m, height of the walls' foot, relative to the origin
   Region bounds_;
   float lowest_ = 0, highest_ = 0, largest_sinkage_ = 0;
   std::uint64_t uploaded_bytes_ = 0;

@@ -84,7 +84,7 @@ int WorldNode::advance(double seconds) {
 
 void WorldNode::refresh() {
   const Snapshot snapshot = take_snapshot(impl_->world);
-  impl_->terrain.update(snapshot.surface, snapshot.dirty, snapshot.sinkage);
+  impl_->terrain.update(snapshot.surface, snapshot.dirty, snapshot.topology, snapshot.sinkage);
   impl_->balls.update(snapshot.surface.origin, snapshot.bodies);
   impl_->place_models(snapshot);
   impl_->style->update(snapshot, impl_->terrain);

@@ -100,11 +100,22 @@ struct MaterialMap {
   std::vector<LegendEntry> legend = {};  ///< every value that the image holds, and no other; empty: no map
 };
 
+/// New triangles where the ground deforms: as fine as bodies and craters need them, and joined again where the ground
+/// is flat. Triangles are halved along their longest sides, those of a grid into ones of the same shape.
+struct Refinement {
+  double min_edge = 0;      ///< m, no edge of a grid gets shorter; 0: the terrain keeps the triangles it starts with
+  int max_level = 10;       ///< times that an edge may be halved, [0, 16]
+  double curvature = 0.05;  ///< rad, by which a crater may turn from one triangle to the next, > 0
+  std::uint64_t budget = 200'000;  ///< most vertices beyond those that the terrain starts with
+  double tolerance = 1e-3;         ///< m, by which the surface may move where triangles are joined again, >= 0
+};
+
 /// Where the ground comes from and what it is made of.
 struct TerrainSource {
   std::variant<GridTerrain, DemTerrain, MeshTerrain> shape = GridTerrain{};  ///< where its heights come from
   std::string material = "paper";           ///< a name in Scene::materials or of a preset
   MaterialMap material_map = {};            ///< where the ground is made of something else
+  Refinement refine = {};                   ///< new triangles where the ground deforms
   std::uint64_t max_vertices = 20'000'000;  ///< a larger terrain is refused before memory is taken
 };
 

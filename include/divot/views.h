@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "divot/shape.h"
 #include "divot/vec.h"
@@ -18,7 +19,7 @@ struct SurfaceView {
   std::span<const std::uint32_t>
       triangles;  ///< [3 * face] vertex ids, counter-clockwise from above: ready as an index buffer
   std::span<const std::uint8_t> materials;  ///< [vertex] index into World::materials()
-  double spacing = 0;                       ///< m, mean grid spacing
+  double spacing = 0;                       ///< m, mean grid spacing; where refined, of the finest triangles
 };
 
 /// What may move a particle.
@@ -76,5 +77,15 @@ struct BombView {
 
 /// Vertices [first, last) whose position changed.
 using DirtyRange = std::pair<std::uint32_t, std::uint32_t>;
+
+/// What became of the triangles.
+struct Topology {
+  /// Triangles [first, last) that have other corners, ascending and disjoint; those from SurfaceView::triangles.size()
+  /// / 3 on are gone.
+  std::vector<DirtyRange> triangles;
+  std::vector<std::uint32_t> added;                 ///< vertices that came, ascending
+  std::vector<std::uint32_t> removed;               ///< vertices that went, ascending: no triangle has them any more
+  bool empty() const { return triangles.empty(); }  ///< true: as before
+};
 
 }  // namespace divot

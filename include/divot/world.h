@@ -21,8 +21,9 @@ namespace divot {
 
 /// What one step met that a caller should know of. Nothing here is an error; the world stays usable.
 struct StepReport {
-  int substeps = 1;               ///< how often forces and motion were evaluated within the step
-  bool substeps_limited = false;  ///< more would have been needed for full stiffness; the ground was softened instead
+  int substeps = 1;                 ///< how often forces and motion were evaluated within the step
+  bool substeps_limited = false;    ///< more would have been needed for full stiffness; the ground was softened instead
+  bool refinement_limited = false;  ///< the budget of new triangles is used up; where they are missing ground is coarse
   bool not_finite = false;  ///< a value left the range of numbers; the particle or body was put to rest where it was
 };
 
@@ -41,6 +42,19 @@ struct UpdateCounts {
   /// Pairs in range that rows did not hold when they were built anew. 0 for every_step; with adaptive only pairs that
   /// came nearer by more than the skin within the last substep, which were found in time.
   std::uint64_t missed_pairs = 0;
+};
+
+/// New triangles ([terrain.refine]) since the world was made.
+struct RefinementCounts {
+  bool on = false;  ///< false: the terrain keeps the triangles it starts with
+  double edge = 0;  ///< m, of the finest triangles: what bodies and bombs of the scene want, within limits
+  std::uint64_t base_vertices = 0;  ///< that the terrain started with
+  std::uint64_t vertices = 0;       ///< there now, beyond those that the terrain started with
+  std::uint64_t most = 0;           ///< most so far, at the end of a step
+  std::uint64_t budget = 0;         ///< more there may not be
+  std::uint64_t halved = 0;         ///< vertices that came so far
+  std::uint64_t joined = 0;         ///< vertices that went so far
+  std::uint64_t short_steps = 0;    ///< steps in which the budget left triangles coarser than they should be
 };
 
 /// A crater as the surface shows it.
@@ -139,6 +153,10 @@ class World {
   /// Vertices that moved since the last call, as ascending disjoint ranges. For uploads: send just these.
   std::vector<DirtyRange> take_dirty();
 
+  /// Triangles that are other ones since the last call and vertices that came or went, where the scene asks for
+  /// refinement. What came is among the dirty ranges too; its id may be that of one that went before.
+  Topology take_topology();
+
   /// How far the vertex lies below the ground it started as, m; negative where soil was deposited.
   float sinkage(std::uint32_t vertex) const;
 
@@ -159,6 +177,7 @@ class World {
   std::size_t peak_particles() const;     ///< most particles awake at once so far
   std::vector<StageTime> stages() const;  ///< in running order
   UpdateCounts updates() const;           ///< of search structures
+  RefinementCounts refinement() const;    ///< new triangles
   std::vector<Crater> craters() const;    ///< one for each bomb that went off, in order
   SoilVolume soil_volume() const;         ///< [O(touched vertices)]
   Energy energy() const;                  ///< [O(awake particles + bodies)]

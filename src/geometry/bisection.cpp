@@ -123,4 +123,40 @@ std::array<std::uint32_t, 3> Bisection::base_corners(const HalfEdgeMesh& mesh, s
   return leaf_[base] == kNone ? corners_of(mesh, base) : nodes_[root_of(leaf_[base])].corner;
 }
 
+bool Bisection::fits(const HalfEdgeMesh& mesh) const {
+  constexpr int kDeepest = 256;
+  const std::size_t vertices = mesh.vertex_count(), nodes = nodes_.size();
+  const auto below = [](const std::vector<std::uint32_t>& ids, std::size_t end) {
+    return std::ranges::all_of(ids, [&](std::uint32_t id) { return id < end; });
+  };
+  if (base_vertices_ > vertices || base_faces_ > mesh.face_count() || leaf_.size() != mesh.face_count() ||
+      birth_.size() != vertices - base_vertices_ || !below(free_node_, nodes))
+    return false;
+  const auto is_gone = [&](std::uint32_t v) {
+    return v >= base_vertices_ && v < vertices && mesh.outgoing(v) == kNone;
+  };
+  if (!std::ranges::all_of(free_vertex_, is_gone) || count_ + free_vertex_.size() != birth_.size()) return false;
+  for (const Birth& birth : birth_)
+    if (birth.parents[0] >= vertices || birth.parents[1] >= vertices) return false;
+  const auto has_child = [&](std::uint32_t node, std::uint32_t child) {
+    const Node& n = nodes_[node];
+    return !n.is_face() && n.child[0] < nodes && n.child[1] < nodes && (n.child[0] == child || n.child[1] == child) &&
+           std::ranges::all_of(n.corner, [&](std::uint32_t v) { return v < vertices; });
+  };
+  for (std::uint32_t face = 0; face < leaf_.size(); ++face) {
+    std::uint32_t node = leaf_[face];
+    if (node == kNone) {
+      if (face >= base_faces_) return false;
+      continue;
+    }
+    if (node >= nodes || !nodes_[node].is_face() || nodes_[node].child[1] != face) return false;
+    for (int depth = 0; nodes_[node].parent != kNone; ++depth) {
+      const std::uint32_t parent = nodes_[node].parent;
+      if (depth == kDeepest || parent >= nodes || !has_child(parent, node)) return false;
+      node = parent;
+    }
+  }
+  return true;
+}
+
 }  // namespace divot::geometry

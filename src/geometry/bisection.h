@@ -52,21 +52,35 @@ class Bisection {
     visit(root_of(leaf_[base]), meets, f);
   }
 
-  /// Faces that have other corners than before, or none, since the last call: in any order, with repeats.
-  std::vector<std::uint32_t>& changed() { return changed_; }
-
- private:
+  /// A face that is there or was halved. For those who keep the state of a world.
   struct Node {
     std::array<std::uint32_t, 3> corner{};                // of a face that was halved
     std::array<std::uint32_t, 2> child = {kNone, kNone};  // second one of a face that is there: the face
     std::uint32_t parent = kNone;
     bool is_face() const { return child[0] == kNone; }
   };
+  /// Where an added vertex came from.
   struct Birth {
     std::array<std::uint32_t, 2> parents = {kNone, kNone};
     std::uint32_t generation = 0;
   };
+  /// Calls f(value) for everything this consists of but changed(), for bytes and back. Afterwards fits() says whether
+  /// it can be.
+  template <class F>
+  void for_each_value(F f) {
+    f(base_vertices_), f(base_faces_), f(count_), f(birth_), f(free_vertex_), f(nodes_), f(free_node_), f(leaf_);
+  }
+  template <class F>
+  void for_each_value(F f) const {
+    f(base_vertices_), f(base_faces_), f(count_), f(birth_), f(free_vertex_), f(nodes_), f(free_node_), f(leaf_);
+  }
+  /// Does nothing lead out of an array, and every tree to its end, for this mesh? [O(faces)]
+  bool fits(const HalfEdgeMesh& mesh) const;
 
+  /// Faces that have other corners than before, or none, since the last call: in any order, with repeats.
+  std::vector<std::uint32_t>& changed() { return changed_; }
+
+ private:
   std::uint32_t root_of(std::uint32_t node) const {
     while (nodes_[node].parent != kNone) node = nodes_[node].parent;
     return node;

@@ -27,11 +27,13 @@ struct Place {
 
 // The place at x, y (m, relative to the surface's origin), looked for from a vertex; nothing where there is none.
 std::optional<Place> place_at(const state::Surface& surface, std::uint32_t from, double x, double y) {
-  // A particle is at most a few cells away from its node; whoever walks longer goes in circles over a fold.
-  constexpr int kMostSteps = 64;
+  // A particle is at most a few cells away from its node; whoever walks longer goes in circles over a fold. Where cells
+  // have been halved, there are more on the way.
+  constexpr int kMostSteps = 64, kMostHalved = 4096;
   const geometry::HalfEdgeMesh& mesh = surface.mesh;
+  const int most = surface.bisection.any() ? kMostHalved : kMostSteps;
   std::uint32_t h = mesh.outgoing(from);
-  for (int step = 0; step < kMostSteps && h != kNone; ++step) {
+  for (int step = 0; step < most && h != kNone; ++step) {
     const std::array<std::uint32_t, 3> edge{h, mesh.next(h), mesh.prev(h)};
     const std::array<std::uint32_t, 3> vertex{mesh.origin(edge[0]), mesh.origin(edge[1]), mesh.origin(edge[2])};
     std::array<Vec3d, 3> corner;

@@ -56,11 +56,28 @@ Json updates(const UpdateCounts& counts) {
           {"missed_pairs", counts.missed_pairs}};
 }
 
+Json refinement(const RefinementCounts& counts) {
+  if (!counts.on) return nullptr;
+  return {{"edge_m", counts.edge},
+          {"vertices", counts.vertices},
+          {"most_vertices", counts.most},
+          {"budget", counts.budget},
+          {"halved", counts.halved},
+          {"joined", counts.joined},
+          {"short_steps", counts.short_steps}};
+}
+
 Json volume(const SoilVolume& soil) {
   return {{"displaced_m3", soil.displaced},
           {"compacted_m3", soil.compacted},
           {"deposited_m3", soil.deposited},
           {"relative_error", soil.relative_error()}};
+}
+
+// Without those that went with their triangles, whose ids wait for new ones.
+std::size_t vertex_count(const World& world) {
+  const RefinementCounts counts = world.refinement();
+  return counts.on ? counts.base_vertices + counts.vertices : world.surface().positions.size();
 }
 
 }  // namespace
@@ -73,7 +90,8 @@ Json summary(const World& world, const RunTotals& totals) {
           {"wall_s", totals.wall_s},
           {"real_time_factor", totals.wall_s > 0 ? world.time() / totals.wall_s : 0.0},
           {"interrupted", totals.interrupted},
-          {"terrain", {{"vertices", surface.positions.size()}, {"triangles", surface.triangles.size() / 3}}},
+          {"terrain", {{"vertices", vertex_count(world)}, {"triangles", surface.triangles.size() / 3}}},
+          {"refinement", refinement(world.refinement())},
           {"particles", {{"peak", world.peak_particles()}, {"final", world.particles().vertices.size()}}},
           {"bodies", bodies(world)},
           {"craters", craters(world)},

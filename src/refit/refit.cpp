@@ -22,15 +22,27 @@ void forget_moved(Tree& tree) {
 }
 
 void refit_moved(Tree& tree, const state::Surface& surface) {
-  for (const std::uint32_t vertex : tree.moved)
-    surface.mesh.for_each_face(vertex, [&](std::uint32_t face) { tree.bvh.touch(face, surface.position); });
+  const geometry::Bisection& bisection = surface.bisection;
+  for (const std::uint32_t vertex : tree.moved) {
+    if (bisection.any() && vertex >= bisection.base_vertex_count()) continue;  // no corner of a face in the tree
+    surface.mesh.for_each_face(vertex, [&](std::uint32_t face) {
+      tree.bvh.touch(bisection.any() ? bisection.base_of(face) : face, surface.position);
+    });
+  }
   tree.refits += tree.bvh.refit(surface.position) > 0;
 }
 
 }  // namespace
 
 void build(Tree& tree, const state::Surface& surface, const Jobs& jobs) {
-  tree.bvh.build(surface.mesh.triangles(), surface.position, tree.margin, jobs);
+  if (surface.bisection.any()) {
+    tree.base.clear();
+    for (std::uint32_t face = 0; face < surface.bisection.base_face_count(); ++face)
+      for (const std::uint32_t v : surface.bisection.base_corners(surface.mesh, face)) tree.base.push_back(v);
+    tree.bvh.build(tree.base, surface.position, tree.margin, jobs);
+  } else {
+    tree.bvh.build(surface.mesh.triangles(), surface.position, tree.margin, jobs);
+  }
   forget_moved(tree);
   ++tree.rebuilds;
 }

@@ -130,15 +130,42 @@ void describe_map(Visitor& v, MaterialMap& map) {
           });
 }
 
+void describe_refine(Visitor& v, Refinement& refine) {
+  v.table({.name = "refine", .example = "refine = { min_edge = 0.05 }"}, [&] {
+    v.number({.name = "min_edge",
+              .unit = "m",
+              .range = between(0, kLong),
+              .meaning = "new triangles where the ground deforms, with no edge shorter than this; 0: none",
+              .required = true},
+             refine.min_edge);
+    v.whole(
+        {.name = "max_level", .range = between(0, 16), .meaning = "times that an edge of the terrain may be halved"},
+        refine.max_level);
+    v.number({.name = "curvature",
+              .unit = "rad",
+              .range = above(0, 1),
+              .meaning = "by which a crater may turn from one triangle to the next"},
+             refine.curvature);
+    v.whole({.name = "budget",
+             .range = between(0, kMostVertices),
+             .meaning = "most vertices beyond those that the terrain starts with"},
+            refine.budget);
+    v.number({.name = "tolerance",
+              .unit = "m",
+              .range = between(0, kLong),
+              .meaning = "by which the surface may move where triangles are joined again; or 1 % of how far it was "
+                         "deformed there"},
+             refine.tolerance);
+  });
+}
+
 void describe_terrain(Visitor& v, TerrainSource& terrain) {
-  static constexpr const char* kRefine[] = {"refine"};
   static constexpr const char* kDemOnly[] = {"crs",          "spacing",       "band",   "pixel",  "raw_columns",
                                              "height_scale", "height_offset", "nodata", "window", "box"};
   static constexpr const char* kMeshOnly[] = {"up", "scale"};
   static constexpr Branch kShapes[] = {{"grid", {}, "grid = { columns = 37, rows = 40, spacing = 10.9 }"},
                                        {"dem", kDemOnly, "dem = \"file.tif\""},
                                        {"mesh", kMeshOnly, "mesh = \"file.obj\""}};
-  v.unsupported({kRefine, "refinement is not supported", "this version keeps the triangles the terrain starts with"});
   for (const std::size_t shape : v.branches(kShapes, terrain.shape.index())) {
     if (shape == 0) describe_grid(v, as<GridTerrain>(terrain.shape));
     if (shape == 1) describe_dem(v, as<DemTerrain>(terrain.shape));
@@ -151,6 +178,7 @@ void describe_terrain(Visitor& v, TerrainSource& terrain) {
            .range = between(4, kMostVertices),
            .meaning = "a larger terrain is refused before memory is taken"},
           terrain.max_vertices);
+  describe_refine(v, terrain.refine);
 }
 
 void describe_bomb(Visitor& v, Bomb& bomb) {

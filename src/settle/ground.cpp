@@ -4,19 +4,6 @@
 
 namespace divot::settle {
 
-double move_vertex(state::Surface& surface, std::uint32_t vertex, const Vec3& to) {
-  // Each face sweeps a tetrahedron: the triple product of the vertex's way and the face's other two edges.
-  const Vec3d from = to_double(surface.position[vertex]);
-  Vec3d area;
-  surface.mesh.for_each_outgoing(vertex, [&](std::uint32_t h) {
-    const Vec3d a = to_double(surface.position[surface.mesh.target(h)]) - from;
-    const Vec3d b = to_double(surface.position[surface.mesh.origin(geometry::HalfEdgeMesh::prev(h))]) - from;
-    area += cross(a, b);
-  });
-  surface.position[vertex] = to;
-  return dot(from - to_double(to), area) / 6;
-}
-
 float bring(Ground& ground, std::uint32_t column, double volume) {
   state::Soil& soil = ground.soil;
   const std::uint32_t vertex = soil.vertex[column], i = soil.particle[column];
@@ -26,7 +13,7 @@ float bring(Ground& ground, std::uint32_t column, double volume) {
   const float before = place.z;
   place.z += static_cast<float>(volume) / area;
   // Floats far from the origin take coarse steps: the books get what the surface did.
-  const double rose = -move_vertex(ground.surface, vertex, place);
+  const double rose = -state::move_vertex(ground.surface, vertex, place);
   const float height = place.z - before;
   soil.gained[column] += volume;
   soil.compacted[column] += volume - rose;

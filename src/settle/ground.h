@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "state/particles.h"
+#include "state/region.h"
 #include "state/soil.h"
 #include "state/surface.h"
 
@@ -23,18 +24,13 @@ struct Moved {
   float free_distance = 0;              ///< m, nor did any that no body carried
 };
 
-/// The ground that this stage moves: the only two ways in which the surface changes, both exact in volume.
+/// The ground that this stage moves, by follow(), state::move_vertex() and bring() alone, all exact in volume.
 struct Ground {
   state::Particles& particles;
   state::Soil& soil;
   state::Surface& surface;
   Moved& moved;
 };
-
-/// Moves a vertex of the surface to `to` and returns the volume that has vanished below it, m^3: what the faces round
-/// it sweep, which is exact for any motion while the others stand still. A vertex of the border must keep its x and y.
-/// [O(valence)]
-double move_vertex(state::Surface& surface, std::uint32_t vertex, const Vec3& to);
 
 /// Soil comes to a column, m^3, or leaves it where negative: the ground there rises or falls with its particle, and the
 /// column's books say so. Soil that comes is as soft as untouched ground; what was compacted below it stays as hard as

@@ -28,6 +28,11 @@ struct Body {
   Vec3d position, velocity, angular_velocity;  // m, m/s, rad/s; contact/
   Quat orientation;
 
+  // refine/
+  Vec3d refined_from,
+      refined_to;            ///< m: on this way, and as far beside it as `refined_left`, the ground is fine enough
+  double refined_left = -1;  ///< m; negative: look again
+
   // contact/
   std::vector<std::uint32_t>
       near;               ///< vertices that could touch it before it or they have moved by `near_left`, ascending

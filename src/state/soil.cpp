@@ -13,12 +13,16 @@ float vertex_area(const Surface& surface, std::uint32_t vertex) {
   return sum / 6;
 }
 
-float cell_area(const Surface& surface, std::uint32_t vertex) {
+namespace {
+
+// `place(vertex)`, m.
+template <class Place>
+float cell_area_of(const geometry::HalfEdgeMesh& mesh, std::uint32_t vertex, Place place) {
   float sum = 0;
-  const Vec3 p = surface.position[vertex];
-  surface.mesh.for_each_outgoing(vertex, [&](std::uint32_t h) {
-    const Vec3 a = surface.position[surface.mesh.target(h)] - p;
-    const Vec3 b = surface.position[surface.mesh.origin(geometry::HalfEdgeMesh::prev(h))] - p;
+  const Vec3 p = place(vertex);
+  mesh.for_each_outgoing(vertex, [&](std::uint32_t h) {
+    const Vec3 a = place(mesh.target(h)) - p;
+    const Vec3 b = place(mesh.origin(geometry::HalfEdgeMesh::prev(h))) - p;
     const float twice = a.x * b.y - a.y * b.x, aa = a.x * a.x + a.y * a.y, bb = b.x * b.x + b.y * b.y,
                 ab = a.x * b.x + a.y * b.y;
     if (!(twice > 0)) return;
@@ -31,6 +35,16 @@ float cell_area(const Surface& surface, std::uint32_t vertex) {
       sum += (aa * at_b + bb * at_a) / (8 * twice);  // each half edge times its distance from the circle's centre
   });
   return sum;
+}
+
+}  // namespace
+
+float cell_area(const Surface& surface, std::uint32_t vertex) {
+  return cell_area_of(surface.mesh, vertex, [&](std::uint32_t v) { return surface.position[v]; });
+}
+
+float cell_area_before(const Surface& surface, const Soil& soil, std::uint32_t vertex) {
+  return cell_area_of(surface.mesh, vertex, [&](std::uint32_t v) { return original_place(surface, soil, v); });
 }
 
 std::uint32_t touch_column(Surface& surface, Soil& soil, std::uint32_t vertex) {

@@ -48,5 +48,13 @@ float vertex_area(const Surface& surface, std::uint32_t vertex);
 /// diagonals, where vertex_area() alternates between 2/3 and 4/3 of it. Of a face with an obtuse corner that one gets
 /// half [Meyer et al. 2003]. [O(valence)]
 float cell_area(const Surface& surface, std::uint32_t vertex);
+/// The same for the ground before the first touch.
+float cell_area_before(const Surface& surface, const Soil& soil, std::uint32_t vertex);
+
+/// Where a vertex was before the first touch, m.
+inline Vec3 original_place(const Surface& surface, const Soil& soil, std::uint32_t vertex) {
+  const std::uint32_t column = surface.column[vertex];
+  return column == kNone ? surface.position[vertex] : soil.original[column];
+}
 
 }  // namespace divot::state

@@ -8,6 +8,7 @@
 
 #include "divot/ids.h"
 #include "divot/vec.h"
+#include "geometry/bisection.h"
 #include "geometry/half_edge_mesh.h"
 
 namespace divot::state {
@@ -34,14 +35,17 @@ struct Raster {
   std::string crs;        ///< WKT; empty when unknown
 };
 
-/// The terrain. Written by terrain/ once, then by settle/ where particles moved.
+/// The terrain. Written by terrain/ once, then by settle/ where particles moved and by refine/ where triangles come and
+/// go.
 struct Surface {
   Vec3d origin;                        ///< m: position + origin is in the terrain's coordinates
-  geometry::HalfEdgeMesh mesh;         ///< vertices without a face are holes (nodata)
+  geometry::HalfEdgeMesh mesh;         ///< vertices without a face are holes (nodata), or went with their triangles
+  geometry::Bisection bisection;       ///< triangles that the terrain did not start with; not started: it keeps those
   std::vector<Vec3> position;          ///< [vertex] m, relative to origin
   std::vector<std::uint8_t> material;  ///< [vertex] index into the world's materials
   std::vector<std::uint32_t> column;   ///< [vertex] its soil column once it was touched, else kNone
-  float spacing = 0;                   ///< m, mean of a grid's two spacings
+  float spacing = 0;                   ///< m, mean of a grid's two spacings; where refined, of the finest triangles
+  float strayed = 0;                   ///< m, no vertex went further sideways from where it started; kept while refined
   std::optional<Raster> raster;        ///< for terrain made from a grid
 };
 

@@ -119,7 +119,15 @@ Result<void> apply(const MaterialMap& map, const Placement& placement, const Map
   return any ? Result<void>() : fail(beside(map, pixels, surface));
 }
 
-Result<void> apply_map(const Scene& scene, std::span<const Material> materials, state::Surface& surface) {
+// A map that has been read, where it lies, and what its entries are.
+struct PlacedMap {
+  MaterialMap map;
+  MapPixels pixels;
+  Placement placement;
+  std::vector<std::uint8_t> material;  // [entry]
+};
+
+Result<PlacedMap> read_placed(const Scene& scene, std::span<const Material> materials, const state::Surface& surface) {
   // An absolute path stays as it is: joining replaces the folder.
   MaterialMap map = scene.terrain.material_map;
   map.image = (std::filesystem::path(scene.folder) / map.image).string();
@@ -127,11 +135,17 @@ Result<void> apply_map(const Scene& scene, std::span<const Material> materials, 
     map.crs = dem->crs;
   auto pixels = read_map(map, scene.terrain.max_vertices);
   if (!pixels) return tl::unexpected(pixels.error());
-  const auto placement = place(map, *pixels, surface);
+  auto placement = place(map, *pixels, surface);
   if (!placement) return tl::unexpected(placement.error());
-  std::vector<std::uint8_t> material;
-  for (const LegendEntry& entry : map.legend) material.push_back(index_of(materials, entry.material));
-  return apply(map, *placement, *pixels, material, surface);
+  PlacedMap placed{std::move(map), std::move(*pixels), std::move(*placement), {}};
+  for (const LegendEntry& entry : placed.map.legend) placed.material.push_back(index_of(materials, entry.material));
+  return placed;
+}
+
+Result<void> apply_map(const Scene& scene, std::span<const Material> materials, state::Surface& surface) {
+  const auto placed = read_placed(scene, materials, surface);
+  if (!placed) return tl::unexpected(placed.error());
+  return apply(placed->map, placed->placement, placed->pixels, placed->material, surface);
 }
 
 }  // namespace
@@ -144,6 +158,19 @@ Result<void> place_materials(const Scene& scene, std::span<const Material> mater
       surface.material[v] = index_of(materials, scene.materials[mesh->materials[v]].name);
   }
   return {};
+}
+
+Result<MaterialAt> material_between(const Scene& scene, std::span<const Material> materials,
+                                    const state::Surface& surface) {
+  if (scene.terrain.material_map.legend.empty()) return MaterialAt();
+  auto placed = read_placed(scene, materials, surface);
+  if (!placed) return tl::unexpected(placed.error());
+  return [map = std::make_shared<const PlacedMap>(std::move(*placed)),
+          otherwise = index_of(materials, scene.terrain.material)](double x, double y) {
+    if (map->placement.to_map && map->placement.to_map->Transform(1, &x, &y) == 0) return otherwise;
+    const std::uint8_t entry = entry_at(map->pixels, map->placement, x, y);
+    return entry == MapPixels::kNoEntry ? otherwise : map->material[entry];
+  };
 }
 
 }  // namespace divot::terrain

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <span>
 
 #include "divot/errors.h"
@@ -16,5 +18,13 @@ namespace divot::terrain {
 /// memory is taken), lies beside the terrain, holds what the legend does not have or does not hold what it has.
 /// [O(pixels + vertices)]
 Result<void> place_materials(const Scene& scene, std::span<const Material> materials, state::Surface& surface);
+
+/// Index of the material at x, y in the terrain's coordinates.
+using MaterialAt = std::function<std::uint8_t(double x, double y)>;
+
+/// What the terrain's map says between vertices, for new ones; empty where there is no map. Fails as place_materials()
+/// does.
+Result<MaterialAt> material_between(const Scene& scene, std::span<const Material> materials,
+                                    const state::Surface& surface);
 
 }  // namespace divot::terrain

@@ -13,6 +13,11 @@
 namespace divot {
 namespace core {
 
+template <>
+inline constexpr bool kPlain<geometry::Bisection::Node> = true;
+template <>
+inline constexpr bool kPlain<geometry::Bisection::Birth> = true;
+
 template <class Archive, class Enum>
 void one_of(Archive& a, Enum& value, std::size_t end) {
   if constexpr (Archive::kReads)
@@ -69,8 +74,9 @@ void archive(Archive& a, T& c) {
 template <class Archive, Is<state::Body> T>
 void archive(Archive& a, T& b) {
   a(b.name, b.given_shape, b.given_center, b.given_inertia, b.mass, b.restitution, b.friction, b.position, b.velocity,
-    b.angular_velocity, b.orientation, b.near, b.near_left, b.last_vertex, b.touching, b.patch_width, b.weight_share,
-    b.impact_speed, b.held_impulse, b.last_impulse, b.sinkage, b.max_sinkage, b.off_terrain);
+    b.angular_velocity, b.orientation, b.refined_from, b.refined_to, b.refined_left, b.near, b.near_left, b.last_vertex,
+    b.touching, b.patch_width, b.weight_share, b.impact_speed, b.held_impulse, b.last_impulse, b.sinkage, b.max_sinkage,
+    b.off_terrain);
 }
 template <class Archive, Is<contact::Press> T>
 void archive(Archive& a, T& p) {
@@ -110,6 +116,51 @@ void archive(Archive& a, T& b) {
   a(b.count, b.first, b.neighbour, b.medium, b.rest_length);
 }
 
+// Triangles that the terrain did not start with.
+template <class Archive, class Impl>
+void archive_triangles(Archive& a, Impl& w) {
+  auto& surface = w.surface;
+  bool on = surface.bisection.started();
+  const std::uint32_t base = surface.mesh.vertex_count(), faces = surface.mesh.face_count();
+  a(on, surface.spacing);
+  if constexpr (Archive::kReads) {
+    if (!(surface.spacing > 0)) return a.fail();
+    if (!on) surface.bisection = {};
+  }
+  if (!on) return;
+  std::vector<std::uint32_t> triangles;
+  std::vector<Vec3> position;
+  std::vector<std::uint8_t> material;
+  if constexpr (!Archive::kReads) {
+    triangles.assign(surface.mesh.triangles().begin(), surface.mesh.triangles().end());
+    const auto first = static_cast<std::ptrdiff_t>(surface.bisection.base_vertex_count());
+    position.assign(surface.position.begin() + first, surface.position.end());
+    material.assign(surface.material.begin() + first, surface.material.end());
+  }
+  a(triangles, position, material, surface.strayed, w.refine_limits.edge, w.refine_limits.tolerance,
+    w.refine_limits.budget, w.refine_progress.next, w.refine_progress.halved, w.refine_progress.joined,
+    w.refine_progress.most, w.refine_progress.short_steps);
+  surface.bisection.for_each_value([&](auto& value) { a(value); });
+  if constexpr (Archive::kReads) {
+    const std::size_t vertices = base + position.size();
+    const auto good = [&](std::uint8_t m) { return m < w.media.size(); };
+    if (material.size() != position.size() || !std::ranges::all_of(material, good) ||
+        !std::ranges::all_of(position, [](const Vec3& p) { return is_finite(p); }) || vertices >= kNone ||
+        surface.bisection.base_vertex_count() != base || surface.bisection.base_face_count() != faces ||
+        !(w.refine_limits.edge > 0))
+      return a.fail();
+    auto mesh = geometry::HalfEdgeMesh::build(static_cast<std::uint32_t>(vertices), std::move(triangles));
+    if (!mesh || !surface.bisection.fits(*mesh)) return a.fail();
+    surface.mesh = std::move(*mesh);
+    surface.position.insert(surface.position.end(), position.begin(), position.end());
+    surface.material.insert(surface.material.end(), material.begin(), material.end());
+    surface.column.resize(vertices, kNone);
+    for (std::size_t v = base; v < vertices; ++v)
+      w.shown.push_back(surface.mesh.outgoing(static_cast<std::uint32_t>(v)) != kNone);
+    w.dirty_chunk.resize(vertices / kDirtyChunk + 1, false);
+  }
+}
+
 // Of the ground only what was ever touched can have moved or be of another material.
 template <class Archive, class Impl>
 void archive_touched(Archive& a, Impl& w) {
@@ -143,6 +194,7 @@ void archive_contact(Archive& a, Impl& w) {
 template <class Archive, Is<World::Impl> T>
 void archive(Archive& a, T& w) {
   a(w.step_count, w.peak_particles, w.bodies, w.joints, w.bombs, w.blasts);
+  archive_triangles(a, w);
   archive_touched(a, w);
   w.particles.for_each_array([&](auto& array) { a(array); });
   a(w.bonds, w.least_mass, w.wake, w.kicks, w.moved.distance, w.moved.free_distance);
@@ -326,6 +378,7 @@ Result<World> World::restore(std::string_view bytes, const Scene& scene, std::sh
   if (!w.rigid.restore(touching)) return damaged();
   // Boxes anew: which places they hold does not depend on how they came to be.
   const auto [steps, refits, rebuilds] = std::tuple(w.tree.steps, w.tree.refits, w.tree.rebuilds);
+  w.tree.margin = kBoxMargin * w.surface.spacing;
   refit::build(w.tree, w.surface, *w.jobs);
   w.tree.steps = steps, w.tree.refits = refits, w.tree.rebuilds = rebuilds;
   return world;

@@ -11,9 +11,6 @@
 namespace divot {
 namespace {
 
-// Boxes of the BVH are larger than their faces by this share of the spacing, so that most steps need no refit.
-constexpr float kMargin = 0.1f;
-
 // Every material that the scene's ground is made of, the terrain's own first, and below it what it is a crust over.
 std::vector<Material> materials_in_use(const Scene& scene) {
   std::vector<Material> used;
@@ -104,7 +101,13 @@ Result<World> World::create(const Scene& scene, std::shared_ptr<const Jobs> jobs
   impl->lowest = math::Aabb::kInf;
   for (const Vec3& p : impl->surface.position) impl->lowest = std::min<double>(impl->lowest, p.z);
   impl->dirty_chunk.assign(impl->surface.position.size() / kDirtyChunk + 1, false);
-  impl->tree.margin = kMargin * impl->surface.spacing;
+  impl->plan_refinement();
+  if (impl->surface.bisection.started()) {
+    auto material_at = terrain::material_between(scene, impl->materials, impl->surface);
+    if (!material_at) return tl::unexpected(material_at.error());
+    impl->material_at = std::move(*material_at);
+  }
+  impl->tree.margin = kBoxMargin * impl->surface.spacing;
   refit::build(impl->tree, impl->surface, *impl->jobs);
 
   World world(std::move(impl));

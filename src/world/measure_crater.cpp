@@ -25,7 +25,7 @@ double sinkage_at(const state::Surface& surface, const state::Soil& soil, const 
   line.include(Vec3{at.x, at.y, -math::Aabb::kInf});
   line.include(Vec3{at.x, at.y, math::Aabb::kInf});
   scratch.faces.clear();
-  bvh.query(line, scratch.faces);
+  state::faces_near(surface, bvh, line, scratch.faces);
   for (const std::uint32_t face : scratch.faces) {
     std::array<std::uint32_t, 3> v;
     for (std::uint32_t k = 0; k < 3; ++k) v[k] = surface.mesh.origin(3 * face + k);

@@ -39,7 +39,7 @@ std::optional<double> resting_height(const World::Impl& w, double x, double y, d
   column.include(Vec3{px - r, py - r, -math::Aabb::kInf});
   column.include(Vec3{px + r, py + r, math::Aabb::kInf});
   std::vector<std::uint32_t> faces;
-  w.tree.bvh.query(column, faces);
+  state::faces_near(w.surface, w.tree.bvh, column, faces);
   double height = below.position.z + radius;
   for (const std::uint32_t face : faces) {
     std::array<Vec3, 3> corner;

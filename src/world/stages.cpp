@@ -99,14 +99,25 @@ bool rescue(state::Body& body, const Vec3d& last) {
   return true;
 }
 
+// How far of what moved lies furthest sideways from where it started, m.
+float furthest_astray(const state::Surface& surface, const state::Soil& soil, const settle::Moved& moved) {
+  float squared = 0;
+  for (const std::uint32_t vertex : moved.vertices) {
+    const std::uint32_t column = surface.column[vertex];
+    if (column == kNone) continue;
+    const Vec3 way = surface.position[vertex] - soil.original[column];
+    squared = std::max(squared, way.x * way.x + way.y * way.y);
+  }
+  return std::sqrt(squared);
+}
+
 }  // namespace
 
 void World::Impl::set_off_bombs() {
   timed(Stage::events, [&] {
     for (const events::Kick& kick : kicks) wake.push_back(kick.vertex);
     for (PlannedBomb& planned : bombs) {
-      // A bomb belongs to the step whose start is nearest.
-      if (planned.exploded || planned.bomb.time > time() + 0.5 * scene.dt) continue;
+      if (!is_due(planned)) continue;
       planned.exploded = true;
       blasts.push_back(events::detonate(planned.bomb, scene.solver.blast, {time(), scene.dt, length(scene.gravity)},
                                         surface, soil, tree.bvh, media, region_scratch));
@@ -215,6 +226,7 @@ void World::Impl::settle_ground(bool particles_changed) {
       last = vertex / kDirtyChunk;
       dirty_chunk[last] = true;
     }
+    if (surface.bisection.started()) surface.strayed = std::max(surface.strayed, furthest_astray(surface, soil, moved));
   });
 }
 

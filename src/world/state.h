@@ -12,6 +12,7 @@
 #include "integration/integrators.h"
 #include "laws/medium.h"
 #include "neighbours/neighbours.h"
+#include "refine/refine.h"
 #include "refit/refit.h"
 #include "settle/settle.h"
 #include "state/blasts.h"
@@ -24,9 +25,9 @@
 namespace divot {
 
 /// Rows of the timers, in running order.
-enum class Stage { events, contact, activation, neighbours, forces, integration, settle, refit, count };
-inline constexpr const char* kStageNames[] = {"events", "contact",     "activation", "neighbours",
-                                              "forces", "integration", "settle",     "refit"};
+enum class Stage { refine, events, contact, activation, neighbours, forces, integration, settle, refit, count };
+inline constexpr const char* kStageNames[] = {"refine", "events",      "contact", "activation", "neighbours",
+                                              "forces", "integration", "settle",  "refit"};
 
 /// A bomb and whether it has gone off.
 struct PlannedBomb {
@@ -62,6 +63,13 @@ struct World::Impl {
   std::vector<std::uint32_t> broken;  ///< scratch: vertices whose crust breaks in this step
   std::vector<bool> dirty_chunk;      ///< [vertex / kDirtyChunk]
 
+  refine::Limits refine_limits;  ///< derived from the scene
+  refine::Progress refine_progress;
+  std::function<std::uint8_t(double x, double y)> material_at;  ///< between vertices; follows from the scene
+  refine::Scratch refine_scratch;
+  std::vector<std::uint32_t> retriangulated;  ///< vertices that came or went since take_topology(), with repeats
+  std::vector<bool> shown;                    ///< [added vertex] was there at the last take_topology()
+
   activation::Scratch activation_scratch;
   contact::Scratch contact_scratch;
   forces::Scratch forces_scratch;
@@ -74,12 +82,20 @@ struct World::Impl {
   core::Timers<static_cast<std::size_t>(Stage::count)> timers;
 
   double time() const { return static_cast<double>(step_count) * scene.dt; }
+  /// Does it go off in this step? A bomb belongs to the step whose start is nearest.
+  bool is_due(const PlannedBomb& planned) const {
+    return !planned.exploded && planned.bomb.time <= time() + 0.5 * scene.dt;
+  }
   template <class Work>
   auto timed(Stage stage, Work&& work) {
     return timers.time(static_cast<std::size_t>(stage), work);
   }
 
+  void plan_refinement();  ///< how fine the scene's bodies and bombs want the ground
+  void mark_dirty(std::uint32_t vertex);
+
   // The stages, with their inputs and outputs taken from the state (stages.cpp).
+  bool refine_ground(StepReport& report);  ///< true where rows of particles have changed
   void set_off_bombs();
   void move_bodies(StepReport& report);
   bool wake_and_sleep();
@@ -89,6 +105,9 @@ struct World::Impl {
   void settle_ground(bool particles_changed);
   void refit_tree();
 };
+
+/// Boxes of the BVH are larger than their faces by this share of the spacing, so that most steps need no refit.
+inline constexpr float kBoxMargin = 0.1f;
 
 /// Vertices are marked dirty in runs of so many.
 inline constexpr std::uint32_t kDirtyChunk = 64;

@@ -63,6 +63,50 @@ std::vector<DirtyRange> World::take_dirty() {
   return ranges;
 }
 
+Topology World::take_topology() {
+  Topology topology;
+  state::Surface& surface = impl_->surface;
+  if (!surface.bisection.started()) return topology;
+  const auto sort_unique = [](std::vector<std::uint32_t>& ids) {
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  };
+  std::vector<std::uint32_t>& faces = surface.bisection.changed();
+  sort_unique(faces);
+  for (const std::uint32_t face : faces) {
+    if (!topology.triangles.empty() && topology.triangles.back().second == face)
+      ++topology.triangles.back().second;
+    else
+      topology.triangles.emplace_back(face, face + 1);
+  }
+  faces.clear();
+  sort_unique(impl_->retriangulated);
+  const std::uint32_t base = surface.bisection.base_vertex_count();
+  impl_->shown.resize(surface.position.size() - base, false);
+  for (const std::uint32_t vertex : impl_->retriangulated) {
+    const bool there = surface.mesh.outgoing(vertex) != kNone;
+    if (there != impl_->shown[vertex - base]) (there ? topology.added : topology.removed).push_back(vertex);
+    impl_->shown[vertex - base] = there;
+  }
+  impl_->retriangulated.clear();
+  return topology;
+}
+
+RefinementCounts World::refinement() const {
+  const geometry::Bisection& bisection = impl_->surface.bisection;
+  if (!bisection.started()) return {};
+  const refine::Progress& progress = impl_->refine_progress;
+  return {.on = true,
+          .edge = impl_->refine_limits.edge,
+          .base_vertices = bisection.base_vertex_count(),
+          .vertices = bisection.added_count(),
+          .most = progress.most,
+          .budget = impl_->refine_limits.budget,
+          .halved = progress.halved,
+          .joined = progress.joined,
+          .short_steps = progress.short_steps};
+}
+
 float World::sinkage(std::uint32_t vertex) const { return measure::sinkage(impl_->surface, impl_->soil, vertex); }
 
 float World::pressure(std::uint32_t vertex) const {

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/bvh.h"
+#include "geometry/posed_solid.h"
+#include "laws/medium.h"
+#include "refine/halve.h"
+#include "state/blasts.h"
+#include "state/bodies.h"
+#include "state/particles.h"
+#include "state/soil.h"
+#include "state/surface.h"
+
+// stage     refine: triangles as fine as what bodies and bombs are about to do, and no finer than what they did
+// reads     bodies, bombs about to go off, BVH, media
+// writes    surface with its triangles, soil, rows of particles, blasts' lists
+// parallel  no: triangles are halved one after another, those round bodies first
+// sums      none; what is halved or joined keeps all sums
+namespace divot::refine {
+
+/// How fine the ground may get. Edges are legs of right triangles on a grid; elsewhere shorter sides may be a little
+/// longer or shorter.
+struct Limits {
+  float edge = 0;              ///< m, no triangle is halved that is as fine as this
+  float tolerance = 1e-3f;     ///< m, by which the surface may move where triangles are joined again
+  float relief_share = 0.01f;  ///< or this share of what the ground there was deformed by
+  std::uint32_t budget = 0;    ///< most vertices beyond those that the terrain started with
+};
+
+/// Ground that a bomb is about to deform.
+struct Zone {
+  Vec3 centre;       ///< m, relative to the surface's origin; the height does not matter
+  float radius = 0;  ///< m, of the crater
+  float edge = 0;    ///< m, wanted in it; further out the wanted edge grows
+};
+
+/// Longest edge, m, that shows a crater by turning no further than `turn`, rad, from one triangle to the next. `radius`
+/// and `depth` in m.
+float crater_edge(double radius, double depth, double turn);
+
+/// Longest edge, m, that shows where a body touches: a twelfth of a ball's radius, a sixth of the least width of
+/// others.
+float contact_edge(const geometry::Solid& solid);
+
+/// The step that is about to be made.
+struct Step {
+  double dt = 0;       ///< s
+  double gravity = 0;  ///< m/s^2, >= 0
+};
+
+/// What the stage remembers from step to step.
+struct Progress {
+  std::uint32_t next = 0;                ///< added vertex to be looked at next, counted from the first
+  std::uint64_t halved = 0, joined = 0;  ///< vertices that came and went so far
+  std::uint32_t most = 0;                ///< added vertices at once
+  std::uint64_t short_steps = 0;         ///< steps in which the budget was used up
+};
+
+/// Arrays the stage needs; they grow and stay.
+struct Scratch {
+  geometry::PosedSolid posed;
+  std::vector<std::uint32_t> faces;
+};
+
+/// What a step has changed.
+struct Outcome {
+  bool rows = false;           ///< rows of particles: their indices are other ones
+  bool out_of_budget = false;  ///< triangles stayed coarser than they should be
+};
+
+/// Halves triangles in the way of bodies (Body::refined_from) and in `zones`; then, if it `may_join`, looks at some of
+/// those that were halved before and joins them where the ground is flat enough. What is awake, or near a body, stays.
+/// Where the budget is used up, ground far from bodies is joined whatever it looks like. [O(bodies that have moved on
+/// by their reach * triangles there + added vertices / 256)]
+Outcome update(Ground& ground, const geometry::Bvh& bvh, std::span<state::Body> bodies, std::span<const Zone> zones,
+               const Limits& limits, const Step& step, bool may_join, Progress& progress, Scratch& scratch);
+
+}  // namespace divot::refine
