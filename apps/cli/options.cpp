@@ -70,8 +70,13 @@ void add_run(CLI::App& app, RunOptions& options) {
                                   .add_option("--resume", options.resume,
                                               "go on from a checkpoint; SCENE only where the scene's file has moved")
                                   ->type_name("FILE");
-  command.parse_complete_callback([scene, resume] {
-    if (scene->empty() && resume->empty()) throw CLI::RequiredError("SCENE");
+  const CLI::Option* replay =
+      command
+          .add_option("--replay", options.replay,
+                      "do again what was done in a live session; SCENE only where the scene's file has moved")
+          ->type_name("FILE");
+  command.parse_complete_callback([scene, resume, replay] {
+    if (scene->empty() && resume->empty() && replay->empty()) throw CLI::RequiredError("SCENE");
   });
   command.add_flag("--report", options.report,
                    "also write report.html: the run to look at in a browser, without network");

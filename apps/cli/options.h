@@ -26,6 +26,7 @@ struct SceneOptions {
 struct RunOptions {
   SceneOptions scene;
   std::string out;              ///< folder for results; empty: out/NAME
+  std::string replay;           ///< recording of a live session to carry out; empty: none
   std::string resume;           ///< checkpoint to go on from; empty: from the start
   double checkpoint_every = 0;  ///< s of simulated time; 0: never
   bool report = false;          ///< also report.html
@@ -59,6 +60,7 @@ struct ViewOptions {
   SceneOptions scene;
   int width = 1280, height = 720;  ///< of the window, pixels
   std::string quality = "auto";    ///< auto, fast or fine
+  std::string record;              ///< file for a recording of the session; empty: none
 };
 
 struct BenchOptions {

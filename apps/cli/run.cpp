@@ -10,6 +10,7 @@
 #include "cli/run_summary.h"
 #include "cli/scene_input.h"
 #include "divot/output.h"
+#include "divot/recording.h"
 
 namespace divot::cli {
 namespace {
@@ -41,6 +42,7 @@ struct Begun {
   World world;
   Recorder recorder;
   SceneFile scene;
+  std::vector<Command> commands;  // of a live session, to be carried out at their steps
   RunTotals totals;
   std::string folder;
   bool resumed = false;
@@ -67,9 +69,11 @@ class Run {
   const Scene& settings() const { return begun_.world.scene(); }
   Result<void> record();
   Result<void> put_aside();
-  void step();
+  Result<void> step();
+  Result<void> carry_out_due();
 
   Begun& begun_;
+  std::size_t next_command_ = 0;
   Report* report_;  // null: none
   double checkpoint_every_;
   Rhythm frames_, bodies_, report_times_, checkpoints_;
@@ -93,10 +97,28 @@ Result<void> Run::put_aside() {
   return begun_.recorder.write_checkpoint(begun_.world, begun_.totals, begun_.scene);
 }
 
-void Run::step() {
+// Commands of steps that a resumed run has behind it are in its world.
+Result<void> Run::carry_out_due() {
+  const std::uint64_t now = begun_.world.steps();
+  for (; next_command_ < begun_.commands.size() && begun_.commands[next_command_].step <= now; ++next_command_) {
+    if (begun_.commands[next_command_].step < now) continue;
+    auto done = begun_.world.carry_out(begun_.commands[next_command_]);
+    if (done) continue;
+    for (Error& error : done.error()) {
+      error.file = begun_.scene.replay;
+      error.key = fmt::format("commands[{}].{}", next_command_, error.key);
+    }
+    return done;
+  }
+  return {};
+}
+
+Result<void> Run::step() {
+  if (auto done = carry_out_due(); !done) return done;
   const StepReport report = begun_.world.step();
   begun_.totals.substeps_limited += report.substeps_limited;
   begun_.totals.not_finite += report.not_finite;
+  return {};
 }
 
 Result<void> Run::go(bool show_progress) {
@@ -104,7 +126,7 @@ Result<void> Run::go(bool show_progress) {
   Progress progress(settings().duration, show_progress);
   if (const auto written = record(); !written) return written;
   while (begun_.world.steps() < steps && !interrupted()) {
-    step();
+    if (const auto stepped = step(); !stepped) return stepped;
     if (const auto written = record(); !written) return written;
     progress.update(begun_.world.time());
   }
@@ -115,34 +137,72 @@ Result<void> Run::go(bool show_progress) {
   return {};
 }
 
+// What the command line says of a scene, on top of what is known of it.
+SceneOptions on_top(const SceneFile& known, SceneOptions options) {
+  if (options.path.empty()) options.path = known.path;
+  options.overrides.insert(options.overrides.begin(), known.overrides.begin(), known.overrides.end());
+  return options;
+}
+
+// A recording is carried out for as long as it lasted, unless the command line says otherwise.
+Result<SceneOptions> scene_of(const Recording& recording, const SceneOptions& options) {
+  SceneOptions scene = on_top({recording.scene, recording.changes, {}}, options);
+  if (!scene.duration.empty()) return scene;
+  const auto loaded = load(scene);
+  if (!loaded) return tl::unexpected(loaded.error());
+  const std::uint64_t steps = std::max<std::uint64_t>(recording.steps, 1);
+  scene.overrides.push_back({"duration", fmt::format("{}", static_cast<double>(steps) * loaded->dt)});
+  return scene;
+}
+
+Result<std::vector<Command>> commands_for(const World& world, const std::string& file, Recording recording) {
+  if (recording.fingerprint == 0 || recording.fingerprint == world.scene_fingerprint())
+    return std::move(recording.commands);
+  return fail({.file = file,
+               .key = "fingerprint",
+               .problem = "the scene is not the one of the session",
+               .expected = "the same scene, or no fingerprint to carry it out on another"});
+}
+
 tl::expected<Begun, int> begin(const RunOptions& options) {
-  auto world = open_world(options.scene);
+  SceneOptions scene = options.scene;
+  Recording recording;
+  if (!options.replay.empty()) {
+    auto read = read_recording(options.replay);
+    if (!read) return tl::unexpected(report(read.error(), kBadInput));
+    recording = std::move(*read);
+    const auto recorded = scene_of(recording, scene);
+    if (!recorded) return tl::unexpected(report(recorded.error(), kBadInput));
+    scene = *recorded;
+  }
+  auto world = open_world(scene);
   if (!world) return tl::unexpected(report(world.error(), kBadInput));
+  auto commands = commands_for(*world, options.replay, std::move(recording));
+  if (!commands) return tl::unexpected(report(commands.error(), kBadInput));
   const std::string folder = results_folder(options.out, world->scene());
   auto recorder = Recorder::create(folder);
   if (!recorder) return tl::unexpected(report(recorder.error(), kFailed));
-  return Begun{std::move(*world), std::move(*recorder), scene_file(options.scene), {}, folder};
-}
-
-// What the command line says comes on top of what it said when the run began.
-SceneOptions scene_of(const Checkpoint& checkpoint, SceneOptions options) {
-  if (options.path.empty()) options.path = checkpoint.scene.path;
-  options.overrides.insert(options.overrides.begin(), checkpoint.scene.overrides.begin(),
-                           checkpoint.scene.overrides.end());
-  return options;
+  return Begun{std::move(*world), std::move(*recorder), scene_file(scene, options.replay), std::move(*commands), {},
+               folder};
 }
 
 tl::expected<Begun, int> resume(const RunOptions& options) {
   const auto checkpoint = read_checkpoint(options.resume);
   if (!checkpoint) return tl::unexpected(report(checkpoint.error(), kBadInput));
-  const SceneOptions scene = scene_of(*checkpoint, options.scene);
+  const SceneOptions scene = on_top(checkpoint->scene, options.scene);
+  const std::string replay = options.replay.empty() ? checkpoint->scene.replay : options.replay;
   auto world = reopen_world(scene, *checkpoint, options.resume);
   if (!world) return tl::unexpected(report(world.error(), kBadInput));
+  auto recording = replay.empty() ? Recording{} : read_recording(replay);
+  if (!recording) return tl::unexpected(report(recording.error(), kBadInput));
+  auto commands = commands_for(*world, replay, std::move(*recording));
+  if (!commands) return tl::unexpected(report(commands.error(), kBadInput));
   const std::string beside = std::filesystem::path(options.resume).parent_path().string();
   const std::string folder = !options.out.empty() ? options.out : beside.empty() ? "." : beside;
   auto recorder = Recorder::resume(folder, *checkpoint);
   if (!recorder) return tl::unexpected(report(recorder.error(), kFailed));
-  return Begun{std::move(*world), std::move(*recorder), scene_file(scene), checkpoint->totals, folder, true};
+  return Begun{std::move(*world),  std::move(*recorder), scene_file(scene, replay), std::move(*commands),
+               checkpoint->totals, folder,               true};
 }
 
 }  // namespace
@@ -156,7 +216,7 @@ int run(const RunOptions& options) {
 
   Report page(options.report ? scene_text(begun->scene) : std::string());
   const auto went = Run(*begun, options.report ? &page : nullptr, options.checkpoint_every).go(!options.quiet);
-  if (!went) return report(went.error(), kFailed);
+  if (!went) return report(went.error(), went.error().front().file == begun->scene.replay ? kBadInput : kFailed);
   if (options.report) {
     const std::string path = (std::filesystem::path(begun->folder) / "report.html").string();
     if (const auto written = page.write(path, world, totals); !written) return report(written.error(), kFailed);

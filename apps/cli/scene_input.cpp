@@ -34,8 +34,9 @@ Result<Scene> load(const SceneOptions& options) {
   return tl::unexpected(std::move(errors));
 }
 
-SceneFile scene_file(const SceneOptions& options) {
-  SceneFile scene{std::filesystem::absolute(options.path).string(), options.overrides};
+SceneFile scene_file(const SceneOptions& options, const std::string& replay) {
+  SceneFile scene{std::filesystem::absolute(options.path).string(), options.overrides, {}};
+  if (!replay.empty()) scene.replay = std::filesystem::absolute(replay).string();
   if (!options.duration.empty()) scene.overrides.push_back({"duration", options.duration});
   return scene;
 }

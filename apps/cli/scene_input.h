@@ -8,8 +8,8 @@
 
 namespace divot::cli {
 
-/// The scene's file, by its absolute path, and all that the command line changes.
-SceneFile scene_file(const SceneOptions& options);
+/// The scene's file, all that the command line changes and the recording carried out on it, by absolute paths.
+SceneFile scene_file(const SceneOptions& options, const std::string& replay = {});
 
 /// A scene's file as it stands, with what changes it as comments below it.
 std::string scene_text(const SceneFile& scene);

@@ -7,6 +7,7 @@
 #include "divot/jobs.h"
 #include "divot/joint.h"
 #include "divot/material.h"
+#include "divot/recording.h"
 #include "divot/scene.h"
 #include "divot/settings.h"
 #include "divot/shape.h"

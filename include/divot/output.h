@@ -22,6 +22,7 @@ struct RunTotals {
 struct SceneFile {
   std::string path;                 ///< of the file
   std::vector<Override> overrides;  ///< in order
+  std::string replay;               ///< the recording that is carried out on it; empty: none
 };
 
 /// A run put aside: what it takes to go on as if it had never stopped.

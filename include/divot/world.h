@@ -14,6 +14,7 @@
 #include "divot/ids.h"
 #include "divot/jobs.h"
 #include "divot/raster.h"
+#include "divot/recording.h"
 #include "divot/scene.h"
 #include "divot/views.h"
 
@@ -79,14 +80,6 @@ struct SoilVolume {
   double relative_error() const;
 };
 
-/// A shove, as of a shock through the ground or of something that no body stands for. Ground within `radius` gets a
-/// velocity: all of it in the middle, falling with (1 - (r/radius)^2)^2 to none at the edge.
-struct GroundPush {
-  Vec3d position;     ///< m, in the terrain's coordinates; the height does not matter
-  double radius = 1;  ///< m, > 0, horizontal
-  Vec3d velocity;     ///< m/s
-};
-
 /// Mechanical energy, J. What is missing against the start went into soil: yield, friction, damping; what came in, from
 /// bombs.
 struct Energy {
@@ -138,6 +131,16 @@ class World {
   /// Pushes the ground at the start of the next step, on top of what it does already; what a body carries stays with
   /// the body. Fails when a number is not finite or the radius is not above 0. [O(log faces + pushed)]
   Result<void> push_ground(const GroundPush& push);
+
+  /// Does what was done to another world at the same step. Fails like the call it stands for.
+  Result<void> carry_out(const Command& command);
+
+  /// From now on what the calls above do is kept in commands(), where they succeed: a recording of the session.
+  void keep_commands();
+  std::span<const Command> commands() const;  ///< in order
+
+  /// A number that tells scenes apart: over every key but `duration` and those of `output`.
+  std::uint64_t scene_fingerprint() const;
 
   double time() const;          ///< s
   std::uint64_t steps() const;  ///< taken since the start

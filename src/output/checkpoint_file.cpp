@@ -18,7 +18,7 @@ void archive(Archive& a, T& change) {
 }
 template <class Archive, Is<SceneFile> T>
 void archive(Archive& a, T& scene) {
-  a(scene.path, scene.overrides);
+  a(scene.path, scene.overrides, scene.replay);
 }
 template <class Archive, Is<RunTotals> T>
 void archive(Archive& a, T& totals) {

@@ -181,30 +181,6 @@ void describe_terrain(Visitor& v, TerrainSource& terrain) {
   describe_refine(v, terrain.refine);
 }
 
-void describe_bomb(Visitor& v, Bomb& bomb) {
-  v.number({.name = "time", .unit = "s", .range = between(0, kForever), .meaning = "when it goes off"}, bomb.time);
-  v.place({.name = "position",
-           .unit = "m",
-           .range = between(-kFar, kFar),
-           .meaning = "of the charge; two numbers put it on the ground at x, y; below the ground it is buried",
-           .required = true},
-          {.name = "above_ground",
-           .meaning = "position's z is the height of burst above the ground there",
-           .default_text = "`false`; `true` with two numbers"},
-          bomb.position, bomb.above_ground);
-  v.number({.name = "depth",
-            .unit = "m",
-            .range = between(0, kLong),
-            .meaning = "of burial: the charge lies so far below `position`"},
-           bomb.depth);
-  v.number({.name = "yield",
-            .unit = "t of TNT",
-            .range = above(0, 1e8),
-            .meaning = "of the charge, in metric tons",
-            .required = true},
-           bomb.yield);
-}
-
 void describe_materials(Visitor& v, std::vector<Material>& materials) {
   v.table({.name = "materials"}, [&] {
     const std::vector<std::string> names = v.material_names(materials);
@@ -388,6 +364,30 @@ void describe_look(Visitor& v, Material& m) {
 
 }  // namespace
 
+void describe(Visitor& v, Bomb& bomb) {
+  v.number({.name = "time", .unit = "s", .range = between(0, kForever), .meaning = "when it goes off"}, bomb.time);
+  v.place({.name = "position",
+           .unit = "m",
+           .range = between(-kFar, kFar),
+           .meaning = "of the charge; two numbers put it on the ground at x, y; below the ground it is buried",
+           .required = true},
+          {.name = "above_ground",
+           .meaning = "position's z is the height of burst above the ground there",
+           .default_text = "`false`; `true` with two numbers"},
+          bomb.position, bomb.above_ground);
+  v.number({.name = "depth",
+            .unit = "m",
+            .range = between(0, kLong),
+            .meaning = "of burial: the charge lies so far below `position`"},
+           bomb.depth);
+  v.number({.name = "yield",
+            .unit = "t of TNT",
+            .range = above(0, 1e8),
+            .meaning = "of the charge, in metric tons",
+            .required = true},
+           bomb.yield);
+}
+
 void describe(Visitor& v, Material& material) {
   describe_particles(v, material);
   describe_ground(v, material);
@@ -409,7 +409,7 @@ void describe(Visitor& v, Scene& scene) {
   describe_materials(v, scene.materials);
   v.list({.name = "bodies"}, scene.bodies, [&](BodySettings& body) { describe(v, body); });
   v.list({.name = "joints"}, scene.joints, [&](Joint& joint) { describe(v, joint); });
-  v.list({.name = "bombs"}, scene.bombs, [&](Bomb& bomb) { describe_bomb(v, bomb); });
+  v.list({.name = "bombs"}, scene.bombs, [&](Bomb& bomb) { describe(v, bomb); });
   v.table({.name = "solver"}, [&] { describe_solver(v, scene.solver); });
   v.table({.name = "output"}, [&] { describe_output(v, scene.output); });
 }

@@ -11,8 +11,9 @@ void describe(Visitor& visitor, Scene& scene);
 /// The keys of one material, without its base.
 void describe(Visitor& visitor, Material& material);
 
-/// The keys of one body and of one joint.
+/// The keys of one body, joint and bomb.
 void describe(Visitor& visitor, BodySettings& body);
 void describe(Visitor& visitor, Joint& joint);
+void describe(Visitor& visitor, Bomb& bomb);
 
 }  // namespace divot::scene

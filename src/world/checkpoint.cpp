@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "core/archive.h"
-#include "scene/fingerprint.h"
 #include "world/place.h"
 #include "world/state.h"
 
@@ -340,7 +339,7 @@ tl::unexpected<Errors> damaged() {
 std::string World::save() const {
   const Impl& w = *impl_;
   core::ByteWriter writer;
-  writer(scene::fingerprint(w.scene, w.materials), w.terrain_fingerprint, w.rigid.save());
+  writer(scene_fingerprint(), w.terrain_fingerprint, w.rigid.save());
   archive(writer, w);
   core::archive_timers(writer, w.timers);
   return writer.take();
@@ -358,7 +357,7 @@ Result<World> World::restore(std::string_view bytes, const Scene& scene, std::sh
   std::string touching;
   reader(scene_then, terrain_then, touching);
   if (!reader.ok()) return damaged();
-  if (scene_then != scene::fingerprint(scene, w.materials))
+  if (scene_then != world->scene_fingerprint())
     return fail({.problem = "the scene is not the one whose world was saved",
                  .expected = "only duration and output may differ"});
   if (terrain_then != w.terrain_fingerprint)

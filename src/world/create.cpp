@@ -147,6 +147,7 @@ Result<BodyId> World::spawn(const BodySettings& settings) {
   impl_->rigid.add(body);
   impl_->bodies.push_back(std::move(body));
   impl_->contact_scratch.bodies.resize(impl_->bodies.size());
+  impl_->keep(settings);
   return BodyId{static_cast<std::uint32_t>(impl_->bodies.size() - 1)};
 }
 
@@ -156,6 +157,7 @@ Result<void> World::push_ground(const GroundPush& push) {
                  .problem = fmt::format("radius {}, velocity ({}, {}, {})", push.radius, push.velocity.x,
                                         push.velocity.y, push.velocity.z),
                  .expected = "finite numbers and a radius above 0"});
+  impl_->keep(push);
   events::push_ground(push, impl_->surface, impl_->tree.bvh, impl_->region_scratch, impl_->kicks);
   return {};
 }
@@ -166,6 +168,7 @@ Result<void> World::add_bomb(const Bomb& bomb) {
   if (Errors errors = check(alone); !errors.empty()) return tl::unexpected(std::move(errors));
   Result<Bomb> placed = place_bomb(*impl_, bomb);
   if (!placed) return tl::unexpected(placed.error());
+  impl_->keep(bomb);
   impl_->bombs.push_back({*placed, false});
   std::stable_sort(impl_->bombs.begin(), impl_->bombs.end(),
                    [](const PlannedBomb& a, const PlannedBomb& b) { return a.bomb.time < b.bomb.time; });

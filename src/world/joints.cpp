@@ -51,17 +51,20 @@ Result<JointId> World::add_joint(const Joint& joint) {
     if (body != kNone) impl_->bodies[body].weight_share = 1;
   impl_->rigid.add(held);
   impl_->joints.push_back(std::move(held));
+  impl_->keep(joint);
   return JointId{static_cast<std::uint32_t>(impl_->joints.size() - 1)};
 }
 
 void World::set_motor(JointId joint, double speed, double force) {
   DIVOT_ASSERT(joint.value < impl_->joints.size());
   impl_->joints[joint.value].motor = {speed, force};
+  impl_->keep(MotorSetting{joint.value, speed, force});
 }
 
 void World::set_steering(JointId joint, double angle_deg) {
   DIVOT_ASSERT(joint.value < impl_->joints.size());
   impl_->joints[joint.value].steering_deg = angle_deg;
+  impl_->keep(SteeringSetting{joint.value, angle_deg});
 }
 
 std::vector<JointView> World::joints() const {

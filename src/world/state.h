@@ -50,6 +50,12 @@ struct World::Impl {
   std::vector<state::HeldJoint> joints;
   std::vector<PlannedBomb> bombs;
   std::vector<state::Blast> blasts;
+  std::vector<Command> commands;
+  bool keeps_commands = false;
+  void keep(decltype(Command::what) what) {
+    if (keeps_commands) commands.push_back({step_count, std::move(what)});
+  }
+
   double lowest = 0;                      ///< m, of the terrain as it was loaded
   std::uint64_t terrain_fingerprint = 0;  ///< of places, triangles and materials, as they were loaded
 
