@@ -198,6 +198,10 @@ void add_view(CLI::App& app, ViewOptions& options) {
       ->check(CLI::IsMember({"auto", "fast", "fine"}).description(""))
       ->type_name("NAME");
   add_threads(command, options.scene);
+  command
+      .add_option("--record", options.record,
+                  "keep what is done in the window, for divot run --replay; a restart begins anew")
+      ->type_name("FILE");
 }
 
 void add_bench(CLI::App& app, BenchOptions& options) {

@@ -42,7 +42,7 @@ struct Begun {
   World world;
   Recorder recorder;
   SceneFile scene;
-  std::vector<Command> commands;  // of a live session, to be carried out at their steps
+  std::vector<divot::Command> commands;  // of a live session, to be carried out at their steps
   RunTotals totals;
   std::string folder;
   bool resumed = false;
@@ -155,7 +155,7 @@ Result<SceneOptions> scene_of(const Recording& recording, const SceneOptions& op
   return scene;
 }
 
-Result<std::vector<Command>> commands_for(const World& world, const std::string& file, Recording recording) {
+Result<std::vector<divot::Command>> commands_for(const World& world, const std::string& file, Recording recording) {
   if (recording.fingerprint == 0 || recording.fingerprint == world.scene_fingerprint())
     return std::move(recording.commands);
   return fail({.file = file,
@@ -182,8 +182,8 @@ tl::expected<Begun, int> begin(const RunOptions& options) {
   const std::string folder = results_folder(options.out, world->scene());
   auto recorder = Recorder::create(folder);
   if (!recorder) return tl::unexpected(report(recorder.error(), kFailed));
-  return Begun{std::move(*world), std::move(*recorder), scene_file(scene, options.replay), std::move(*commands), {},
-               folder};
+  return Begun{
+      std::move(*world), std::move(*recorder), scene_file(scene, options.replay), std::move(*commands), {}, folder};
 }
 
 tl::expected<Begun, int> resume(const RunOptions& options) {
@@ -201,8 +201,13 @@ tl::expected<Begun, int> resume(const RunOptions& options) {
   const std::string folder = !options.out.empty() ? options.out : beside.empty() ? "." : beside;
   auto recorder = Recorder::resume(folder, *checkpoint);
   if (!recorder) return tl::unexpected(report(recorder.error(), kFailed));
-  return Begun{std::move(*world),  std::move(*recorder), scene_file(scene, replay), std::move(*commands),
-               checkpoint->totals, folder,               true};
+  return Begun{std::move(*world),
+               std::move(*recorder),
+               scene_file(scene, replay),
+               std::move(*commands),
+               checkpoint->totals,
+               folder,
+               true};
 }
 
 }  // namespace

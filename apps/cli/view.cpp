@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/scene_input.h"
+#include "divot/recording.h"
 #include "viewer/heap.h"
 #include "viewer/window.h"
 
@@ -20,6 +21,25 @@ int exit_status(const Errors& errors) {
   return key == "display" || key == "size" || key.starts_with("materials.") ? kBadInput : kFailed;
 }
 
+// Draws pictures until the window is closed. What is done in it is on disk at once, so that nothing that ends it loses
+// the session.
+Result<void> run_recorded(viewer::Window& window, const SceneOptions& options, const std::string& path) {
+  const SceneFile scene = scene_file(options);
+  Recording session{.scene = scene.path, .changes = scene.overrides};
+  const auto write = [&] {
+    session.fingerprint = window.world().scene_fingerprint();
+    session.steps = window.world().steps();
+    session.commands.assign(window.world().commands().begin(), window.world().commands().end());
+    return write_recording(path, session);
+  };
+  if (auto written = write(); !written) return written;
+  while (window.frame()) {
+    if (window.world().commands().size() == session.commands.size()) continue;
+    if (auto written = write(); !written) return written;
+  }
+  return write();
+}
+
 }  // namespace
 
 int view(const ViewOptions& options) {
@@ -34,8 +54,12 @@ int view(const ViewOptions& options) {
       if (error.key.starts_with("materials.")) error.file = options.scene.path;
     return report(window.error(), exit_status(window.error()));
   }
-  window->run();
-  return kDone;
+  if (options.record.empty()) {
+    window->run();
+    return kDone;
+  }
+  const auto recorded = run_recorded(*window, options.scene, options.record);
+  return recorded ? kDone : report(recorded.error(), kFailed);
 }
 
 }  // namespace divot::cli

@@ -16,7 +16,10 @@ constexpr double kSlowdown = 4, kSlowest = 1.0 / 16;
 }  // namespace
 
 Result<LiveWorld> LiveWorld::create(const Scene& scene, std::shared_ptr<const Jobs> jobs) {
-  return World::create(scene, jobs).map([&](World&& world) { return LiveWorld(std::move(world), jobs); });
+  return World::create(scene, jobs).map([&](World&& world) {
+    world.keep_commands();
+    return LiveWorld(std::move(world), jobs);
+  });
 }
 
 void LiveWorld::advance(double real) {
@@ -40,6 +43,7 @@ void LiveWorld::step() { world_.step(); }
 Result<void> LiveWorld::restart() {
   return World::create(world_.scene(), jobs_).map([&](World&& world) {
     world_ = std::move(world);
+    world_.keep_commands();
     due_ = lag_ = 0;
   });
 }

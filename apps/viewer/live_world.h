@@ -9,7 +9,7 @@
 
 namespace divot::viewer {
 
-/// A world whose time runs with the clock on the wall.
+/// A world whose time runs with the clock on the wall, and that keeps what is done to it (World::commands).
 class LiveWorld {
  public:
   /// Fails like World::create. `jobs` is kept.

@@ -1,9 +1,11 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -112,6 +114,37 @@ TEST_F(View, BodyIsDroppedAtTheMouse) {
   sleep(1);
   const auto bodies = nlohmann::json::parse(view.summary())["bodies"];
   ASSERT_EQ(bodies.size(), 1u);
+}
+
+TEST_F(View, WhatIsDoneInItCanBeDoneAgain) {
+  const std::string file = testing::TempDir() + fmt::format("divot_session_{}.toml", getpid());
+  nlohmann::json summary;
+  {
+    ViewSession view(display, kBall, {"--quality", "fast", "--record", file});
+    view.click(420, 220);
+    sleep(0.4);
+    view.press("b");
+    view.click(300, 260);
+    sleep(0.4);
+    view.press("p");
+    summary = nlohmann::json::parse(view.summary());
+    view.press("Escape");
+    EXPECT_EQ(view.process().wait(20), 0);
+  }
+  const auto session = read_recording(file);
+  ASSERT_TRUE(session) << session.error().front().text();
+  EXPECT_EQ(session->commands.size(), 3u);
+  EXPECT_EQ(session->steps, summary["steps"]);
+  auto world = World::create(*parse_scene(kBall, "test.toml"));
+  EXPECT_EQ(session->fingerprint, world->scene_fingerprint());
+  std::size_t next = 0;
+  while (world->steps() < session->steps) {
+    for (; next < session->commands.size() && session->commands[next].step == world->steps(); ++next)
+      ASSERT_TRUE(world->carry_out(session->commands[next]));
+    world->step();
+  }
+  EXPECT_EQ(fmt::format("{:016x}", world->state_hash()), summary["state_hash"]);
+  std::filesystem::remove(file);
 }
 
 TEST_F(View, CameraTurnsMovesAndComesCloser) {

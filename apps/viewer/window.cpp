@@ -357,4 +357,6 @@ Image Window::capture() {
 
 Camera Window::camera() const { return impl_->view.camera(); }
 
+const World& Window::world() const { return impl_->view.live().world(); }
+
 }  // namespace divot::viewer

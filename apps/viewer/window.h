@@ -8,6 +8,7 @@
 #include "divot/errors.h"
 #include "divot/jobs.h"
 #include "divot/scene.h"
+#include "divot/world.h"
 #include "viewer/camera.h"
 #include "viewer/image.h"
 #include "viewer/look.h"
@@ -80,6 +81,9 @@ class Window {
   Image capture();
 
   Camera camera() const;
+
+  /// What runs in it: another one after a restart.
+  const World& world() const;
 
  private:
   struct Impl;

@@ -38,11 +38,11 @@ struct Command {
 
 /// A live session: carried out again on the same scene, its commands give the same bits.
 struct Recording {
-  std::string scene;                ///< the scene's file
-  std::vector<Override> changes;    ///< of the scene, in order
-  std::uint64_t fingerprint = 0;    ///< World::scene_fingerprint(); 0: of any scene
-  std::uint64_t steps = 0;          ///< how long it lasted
-  std::vector<Command> commands;    ///< in order
+  std::string scene;              ///< the scene's file
+  std::vector<Override> changes;  ///< of the scene, in order
+  std::uint64_t fingerprint = 0;  ///< World::scene_fingerprint(); 0: of any scene
+  std::uint64_t steps = 0;        ///< how long it lasted
+  std::vector<Command> commands;  ///< in order
 };
 
 /// Writes a recording as TOML, under its name when it is complete or not at all. Fails with the system's reason, and

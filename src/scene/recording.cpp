@@ -65,7 +65,7 @@ void describe(Visitor& v, Command& command) {
   }
 }
 
-void describe(Visitor& v, Recording& recording, std::string& fingerprint) {
+void describe_recording(Visitor& v, Recording& recording, std::string& fingerprint) {
   v.text({.name = "scene", .required = true}, recording.scene);
   v.text({.name = "fingerprint"}, fingerprint);
   v.whole({.name = "steps", .range = {.low = 0}, .required = true}, recording.steps);
@@ -76,7 +76,9 @@ void describe(Visitor& v, Recording& recording, std::string& fingerprint) {
   v.list({.name = "commands"}, recording.commands, [&](Command& command) { describe(v, command); });
 }
 
-bool is_in_memory(const ConvexShape& shape) {
+// A hull of points that no file holds.
+template <class AnyShape>
+bool is_in_memory(const AnyShape& shape) {
   const Hull* hull = std::get_if<Hull>(&shape);
   return hull != nullptr && hull->file.empty();
 }
@@ -84,7 +86,7 @@ bool is_in_memory(const ConvexShape& shape) {
 bool has_hull_in_memory(const Command& command) {
   const auto* body = std::get_if<BodySettings>(&command.what);
   if (body == nullptr) return false;
-  if (const auto* hull = std::get_if<Hull>(&body->shape)) return hull->file.empty();
+  if (is_in_memory(body->shape)) return true;
   const auto* compound = std::get_if<Compound>(&body->shape);
   return compound != nullptr &&
          std::ranges::any_of(compound->parts, [](const Part& part) { return is_in_memory(part.shape); });
@@ -111,7 +113,7 @@ Result<void> write_recording(const std::string& path, const Recording& recording
   Recording copy = recording;
   std::string fingerprint = copy.fingerprint == 0 ? std::string() : fmt::format("{:016x}", copy.fingerprint);
   scene::Writer writer;
-  scene::describe(writer, copy, fingerprint);
+  scene::describe_recording(writer, copy, fingerprint);
   std::ostringstream text;
   text << writer.document << '\n';
   auto file = output::AtomicFile::create(path);
@@ -128,7 +130,7 @@ Result<Recording> read_recording(const std::string& path) {
   Recording recording;
   std::string fingerprint;
   scene::Reader reader(*document, path);
-  scene::describe(reader, recording, fingerprint);
+  scene::describe_recording(reader, recording, fingerprint);
   reader.finish();
   Errors wrong = scene::contradictions(recording);
   char* end = nullptr;

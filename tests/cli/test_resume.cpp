@@ -163,6 +163,34 @@ TEST_F(Resume, TheSceneMustBeTheSame) {
   EXPECT_EQ(summary("moved")["state_hash"], summary("o")["state_hash"]);
 }
 
+TEST_F(Resume, ARecordedSessionIsCarriedOutAgainAlsoAfterItWasCut) {
+  std::ofstream(folder_ / "session.toml")
+      << "scene = \"scene.toml\"\nsteps = 300\n"
+         "[[commands]]\nstep = 50\nbomb = { position = [1, 1], yield = 0.002 }\n"
+         "[[commands]]\nstep = 200\nbody = { name = \"late\", mass = 500, position = "
+         "[2, 0, 3], shape = { sphere = { radius = 0.5 } } }\n";
+  ASSERT_EQ(divot({"run", "--replay", "session.toml", "--out", "whole", "--quiet"}).status, 0);
+  const json whole = summary("whole");
+  EXPECT_EQ(whole["steps"], 300);
+  EXPECT_EQ(whole["craters"].size(), 2u);
+  EXPECT_EQ(whole["bodies"].back()["name"], "late");
+  ASSERT_EQ(divot({"run", "--replay", "session.toml", "--out", "half", "--quiet", "--duration", "2",
+                   "--checkpoint-every", "2"})
+                .status,
+            0);
+  const Outcome rest = divot({"run", "--resume", "half/checkpoint.divot", "--duration", "5", "--quiet"});
+  ASSERT_EQ(rest.status, 0) << rest.err;
+  EXPECT_EQ(summary("half")["state_hash"], whole["state_hash"]);
+
+  std::ofstream(folder_ / "session.toml", std::ios::app)
+      << "[[commands]]\nstep = 201\nbomb = { position = [9999, 1], yield = 0.002 }\n";
+  const Outcome off = divot({"run", "--replay", "session.toml", "--out", "off", "--quiet"});
+  EXPECT_EQ(off.status, 2);
+  EXPECT_NE(off.err.find("session.toml: commands[2].bombs: there is no ground below (9999, 1)"), std::string::npos)
+      << off.err;
+  EXPECT_FALSE(fs::exists(folder_ / "off/summary.json"));
+}
+
 TEST_F(Resume, WantsAScene) {
   const Outcome outcome = divot({"run"});
   EXPECT_EQ(outcome.status, 2);
