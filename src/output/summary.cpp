@@ -57,7 +57,6 @@ Json updates(const UpdateCounts& counts) {
 }
 
 Json refinement(const RefinementCounts& counts) {
-  if (!counts.on) return nullptr;
   return {{"edge_m", counts.edge},
           {"vertices", counts.vertices},
           {"most_vertices", counts.most},
@@ -84,22 +83,23 @@ std::size_t vertex_count(const World& world) {
 
 Json summary(const World& world, const RunTotals& totals) {
   const SurfaceView surface = world.surface();
-  return {{"scene", world.scene().name},
-          {"simulated_s", world.time()},
-          {"steps", world.steps()},
-          {"wall_s", totals.wall_s},
-          {"real_time_factor", totals.wall_s > 0 ? world.time() / totals.wall_s : 0.0},
-          {"interrupted", totals.interrupted},
-          {"terrain", {{"vertices", vertex_count(world)}, {"triangles", surface.triangles.size() / 3}}},
-          {"refinement", refinement(world.refinement())},
-          {"particles", {{"peak", world.peak_particles()}, {"final", world.particles().vertices.size()}}},
-          {"bodies", bodies(world)},
-          {"craters", craters(world)},
-          {"stages", stages(world)},
-          {"updates", updates(world.updates())},
-          {"volume", volume(world.soil_volume())},
-          {"flags", {{"substeps_limited", totals.substeps_limited}, {"not_finite", totals.not_finite}}},
-          {"state_hash", fmt::format("{:016x}", world.state_hash())}};
+  Json all = {{"scene", world.scene().name},
+              {"simulated_s", world.time()},
+              {"steps", world.steps()},
+              {"wall_s", totals.wall_s},
+              {"real_time_factor", totals.wall_s > 0 ? world.time() / totals.wall_s : 0.0},
+              {"interrupted", totals.interrupted},
+              {"terrain", {{"vertices", vertex_count(world)}, {"triangles", surface.triangles.size() / 3}}},
+              {"particles", {{"peak", world.peak_particles()}, {"final", world.particles().vertices.size()}}},
+              {"bodies", bodies(world)},
+              {"craters", craters(world)},
+              {"stages", stages(world)},
+              {"updates", updates(world.updates())},
+              {"volume", volume(world.soil_volume())},
+              {"flags", {{"substeps_limited", totals.substeps_limited}, {"not_finite", totals.not_finite}}},
+              {"state_hash", fmt::format("{:016x}", world.state_hash())}};
+  if (world.refinement().on) all["refinement"] = refinement(world.refinement());
+  return all;
 }
 
 }  // namespace divot::output
