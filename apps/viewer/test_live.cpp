@@ -189,6 +189,19 @@ TEST(PixelShare, OneLongPictureIsNoReason) {
   }
 }
 
+TEST(PixelShare, GoesBackWhereFewerPixelsGainNothing) {
+  PixelShare pixels(1.0 / 60);
+  double all = 0, sharp = 0;
+  while (all < 60) {
+    const double share = pixels.share(), picture = share < 1 ? 0.041 : 0.040;
+    pixels.see(picture);
+    all += picture;
+    sharp += share == 1 ? picture : 0;
+  }
+  EXPECT_GT(sharp, 0.9 * all);
+  EXPECT_LT(sharp, all) << "it was tried";
+}
+
 TEST(PixelShare, StaysWhereItFits) {
   PixelShare pixels(1.0 / 60);
   share_after(pixels, 0.022, 2);
