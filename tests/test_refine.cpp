@@ -324,7 +324,10 @@ TEST(Refine, FlatGroundIsCoarseAgain) {
   World world = test::make_world(scene);
   test::run_to(world, 1);
   const std::uint64_t halved = world.refinement().halved;
+  const SurfaceView before = world.surface();
   test::run_to(world, 4);
+  EXPECT_EQ(world.surface().positions.data(), before.positions.data()) << "views stay where they are";
+  EXPECT_EQ(world.surface().triangles.data(), before.triangles.data());
   EXPECT_GT(world.refinement().joined, halved / 2);
   EXPECT_LT(world.refinement().vertices, world.refinement().most);
   EXPECT_LT(world.soil_volume().displaced, 1e-3);

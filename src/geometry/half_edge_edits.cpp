@@ -8,6 +8,10 @@
 // face of its twin g.
 namespace divot::geometry {
 
+void HalfEdgeMesh::reserve(std::size_t vertices, std::size_t faces) {
+  origin_.reserve(3 * faces), twin_.reserve(3 * faces), outgoing_.reserve(vertices);
+}
+
 void HalfEdgeMesh::link(std::uint32_t a, std::uint32_t b) {
   if (a != kNone) twin_[a] = b;
   if (b != kNone) twin_[b] = a;

@@ -33,6 +33,9 @@ class HalfEdgeMesh {
   static Result<HalfEdgeMesh> build(std::uint32_t vertex_count, std::vector<std::uint32_t> triangles,
                                     const std::function<std::string(std::uint32_t)>& vertex_text = {});
 
+  /// Memory for a mesh of so many: edits up to there leave triangles() where it is.
+  void reserve(std::size_t vertices, std::size_t faces);
+
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(outgoing_.size()); }
   std::uint32_t face_count() const { return half_edge_count() / 3; }
   std::uint32_t half_edge_count() const { return static_cast<std::uint32_t>(origin_.size()); }

@@ -8,6 +8,8 @@ namespace {
 
 // Ids count to 2^32 and a vertex has six half-edges.
 constexpr double kMostVertices = 7e8;
+// Address space is set aside for all that refinement may add.
+constexpr double kMostAdded = 2e7;
 
 constexpr const char* kCohesions[] = {"lennard_jones", "mass_spring"};
 constexpr const char* kBlasts[] = {"scaled", "paper"};
@@ -147,7 +149,7 @@ void describe_refine(Visitor& v, Refinement& refine) {
               .meaning = "by which a crater may turn from one triangle to the next"},
              refine.curvature);
     v.whole({.name = "budget",
-             .range = between(0, kMostVertices),
+             .range = between(0, kMostAdded),
              .meaning = "most vertices beyond those that the terrain starts with"},
             refine.budget);
     v.number({.name = "tolerance",

@@ -157,6 +157,8 @@ void archive_triangles(Archive& a, Impl& w) {
     for (std::size_t v = base; v < vertices; ++v)
       w.shown.push_back(surface.mesh.outgoing(static_cast<std::uint32_t>(v)) != kNone);
     w.dirty_chunk.resize(vertices / kDirtyChunk + 1, false);
+    const auto& wanted = w.scene.terrain.refine;
+    if (w.refine_limits.budget > wanted.budget || vertices - base > wanted.budget) return a.fail();
   }
 }
 
@@ -377,6 +379,7 @@ Result<World> World::restore(std::string_view bytes, const Scene& scene, std::sh
   if (!w.rigid.restore(touching)) return damaged();
   // Boxes anew: which places they hold does not depend on how they came to be.
   const auto [steps, refits, rebuilds] = std::tuple(w.tree.steps, w.tree.refits, w.tree.rebuilds);
+  w.reserve_budget();
   w.tree.margin = kBoxMargin * w.surface.spacing;
   refit::build(w.tree, w.surface, *w.jobs);
   w.tree.steps = steps, w.tree.refits = refits, w.tree.rebuilds = rebuilds;

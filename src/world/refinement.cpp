@@ -71,6 +71,14 @@ void World::Impl::plan_refinement() {
   refine_limits = {.edge = surface.spacing,
                    .tolerance = static_cast<float>(wanted.tolerance),
                    .budget = static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted.budget, kNone / 8))};
+  reserve_budget();
+}
+
+void World::Impl::reserve_budget() {
+  if (!surface.bisection.started()) return;
+  const std::size_t most = std::size_t{surface.bisection.base_vertex_count()} + refine_limits.budget;
+  surface.mesh.reserve(most, std::size_t{surface.bisection.base_face_count()} + 2 * std::size_t{refine_limits.budget});
+  surface.position.reserve(most), surface.material.reserve(most), surface.column.reserve(most);
 }
 
 void World::Impl::mark_dirty(std::uint32_t vertex) {

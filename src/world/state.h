@@ -98,6 +98,7 @@ struct World::Impl {
   }
 
   void plan_refinement();  ///< how fine the scene's bodies and bombs want the ground
+  void reserve_budget();   ///< views of the ground stay where they are, however many triangles come
   void mark_dirty(std::uint32_t vertex);
 
   // The stages, with their inputs and outputs taken from the state (stages.cpp).
