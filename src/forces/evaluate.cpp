@@ -19,6 +19,7 @@ Terms terms_of(const laws::Medium& medium, const laws::Resolution& resolution) {
           .soften_damping = resolution.damping_limit() / laws::kLatticeDamping,
           .held_stiffness = laws::held_stiffness(medium, resolution),
           .held_damping = laws::held_damping(medium, resolution),
+          .global_damping = laws::global_damping(medium, resolution),
           .shortest = 1 / (1 + medium.yield_strain),
           // Nothing can be squeezed by more than its length.
           .longest = medium.yield_strain < 1 ? 1 / std::max(1 - medium.yield_strain, 0.1f) : 1e30f};

@@ -19,6 +19,7 @@ struct Terms {
   float bond_stiffness = 0;                    ///< N/m: of two materials the weaker holds the bond
   float soften_bonds = 0, soften_damping = 0;  ///< 1/kg, N s/(m kg): times the lighter mass, the most a pair may have
   float held_stiffness = 0, held_damping = 0;  ///< of the ground, Pa/m, Pa s/m
+  float global_damping = 0;                    ///< of eq. 3, kg/(s m^2)
   float shortest = 0, longest = 0;             ///< rest length over distance between which a bond does not yield
 };
 
@@ -100,7 +101,7 @@ template <class Real>
 DIVOT_INLINE void add_own(const Terms& t, const Own<Real>& p, Sum<Real>& sum) {
   using math::select;
   const auto flows = p.flow_rate > Real(0.0f);
-  const Real gamma = select(flows, p.mass * p.flow_rate, Real(t.medium.areal_damping) * p.area);
+  const Real gamma = select(flows, p.mass * p.flow_rate, Real(t.global_damping) * p.area);
   Real x = -gamma * p.vx, y = -gamma * p.vy, z = -gamma * p.vz;
   if (t.medium.ground) {
     const laws::Traction<Real> traction = laws::ground_traction<Real>(t.medium, t.held_stiffness, t.held_damping, p.dx,

@@ -27,6 +27,11 @@ inline float held_damping(const Medium& s, const Resolution& resolution) {
   return std::min(s.ground_damping, resolution.damping_limit() * s.areal_mass);
 }
 
+/// Damping of eq. 3 that a free particle feels, kg/(s m^2).
+inline float global_damping(const Medium& s, const Resolution& resolution) {
+  return std::min(s.areal_damping, resolution.damping_limit() * s.areal_mass);
+}
+
 template <class Real>
 struct Traction {
   Real x, y, z;  ///< Pa

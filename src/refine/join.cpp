@@ -52,7 +52,8 @@ double bulge_at(const Ground& ground, std::uint32_t vertex, float tolerance) {
   const state::Surface& surface = ground.surface;
   const geometry::HalfEdgeMesh& mesh = surface.mesh;
   if (!surface.bisection.can_merge(mesh, vertex) || is_particle(ground, vertex)) return kNever;
-  const auto [a, b] = surface.bisection.parents(vertex);
+  const auto parents = surface.bisection.parents(vertex);
+  const std::uint32_t a = parents[0], b = parents[1];
   const std::uint8_t material = surface.material[vertex];
   if (surface.material[a] != material || surface.material[b] != material) return kNever;
   const Memory own = memory_at(ground, vertex), first = memory_at(ground, a), second = memory_at(ground, b);
