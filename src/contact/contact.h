@@ -74,6 +74,12 @@ struct Contact {
   double grip = 0;        ///< N, largest shear force
 };
 
+/// Soil that stands before a piece of a body's upright side and resists being pushed on by it.
+struct Wall {
+  Row inward{};      ///< from the body's velocity to the speed at which the wall goes into the soil, m/s
+  double force = 0;  ///< N, once it does
+};
+
 /// Where a body has pressed one column to.
 struct Press {
   std::uint32_t vertex = 0;
@@ -93,6 +99,7 @@ struct Scratch {
     Vec3d ground{0, 0, 1};                // across the unpressed ground under the body, 1 high
     std::vector<geometry::Cover> covers;  // [footing] area, and area times place
     std::vector<Contact> contacts;
+    std::vector<Wall> walls;
     std::vector<Guide> guides;
     std::vector<Press> presses, last;
   };

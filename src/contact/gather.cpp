@@ -5,6 +5,7 @@
 
 #include "contact/near.h"
 #include "laws/bekker.h"
+#include "laws/passive_pressure.h"
 
 namespace divot::contact {
 namespace {
@@ -79,20 +80,23 @@ struct Line {
 
   explicit Line(const geometry::Ridge& r)
       : x(r.from.x), y(r.from.y), dx(r.to.x - x), dy(r.to.y - y), squared(dx * dx + dy * dy) {}
-  // Where along it a column's foot is, from 0 to 1.
-  double foot(const Footing& f) const {
-    return std::clamp(((f.x - x) * dx + (f.y - y) * dy) / squared, 1e-6, 1 - 1e-6);
-  }
+  // Where along it a column's foot is, from 0 to 1, or beyond its ends.
+  double along(const Footing& f) const { return ((f.x - x) * dx + (f.y - y) * dy) / squared; }
+  double foot(const Footing& f) const { return std::clamp(along(f), 1e-6, 1 - 1e-6); }
   double distance(const Footing& f, double at) const { return std::hypot(f.x - x - at * dx, f.y - y - at * dy); }
 };
 
 // The columns beside the line that are nearest to their own foot on it. By distance, not by cells: where the shear has
-// drawn vertices apart, a wheel would find the gap between two cells.
+// drawn vertices apart, a wheel would find the gap between two cells. What stands past the line's ends, as in the wall
+// of a wheel's rut, is only met where nothing else is beside the line.
 void choose_on_line(const Line& line, double spacing, const std::vector<Footing>& footings,
                     std::vector<std::uint32_t>& beside, std::vector<std::uint32_t>& chosen) {
   beside.clear(), chosen.clear();
   for (std::uint32_t k = 0; k < footings.size(); ++k)
     if (line.distance(footings[k], line.foot(footings[k])) < spacing) beside.push_back(k);
+  const auto is_past = [&](std::uint32_t k) { return line.along(footings[k]) != line.foot(footings[k]); };
+  if (!std::all_of(beside.begin(), beside.end(), is_past))
+    beside.erase(std::remove_if(beside.begin(), beside.end(), is_past), beside.end());
   for (const std::uint32_t own : beside) {
     const double at = line.foot(footings[own]), near = line.distance(footings[own], at);
     const bool beaten = std::any_of(beside.begin(), beside.end(), [&](std::uint32_t other) {
@@ -171,6 +175,9 @@ Footing* find_footing(std::vector<Footing>& footings, std::uint32_t vertex) {
 // Columns are met no nearer to a body's edge than this share of a cell, so that a wall which leans out a little, as
 // when a box has tilted, is not taken for the underside. Steeper than kFlat it is none.
 constexpr double kInside = 0.25, kFlat = 0.5;
+// A column comes under a body when it lies outside by this share of a cell, and stays under it until it does by that:
+// one on the line of a wheel's side would rise and be pressed again with the faintest turn, by the depth of the rut.
+constexpr double kComes = 0.05, kStays = 0.25;
 
 // The column well inside the outline that takes over what the body covers of the cell at `f`, outside of it.
 Footing* heir_of(const geometry::PosedPiece& piece, const Footing& f, double width, const state::Surface& surface,
@@ -186,14 +193,27 @@ Footing* heir_of(const geometry::PosedPiece& piece, const Footing& f, double wid
   return find_footing(footings, walk_to(surface, f.vertex, x, y));
 }
 
+// The soil of the cell at `f`, which stands before the edge of a flat underside at a height of `foot`.
+Wall wall_at(const Footing& f, const Vec3d& away, double out, double width, double foot,
+             const geometry::PosedPiece& piece, const Vec3d& centre, const Situation& s) {
+  const double height = std::min(f.height, piece.high.z) - foot;
+  const std::uint32_t column = s.surface.column[f.vertex];
+  const double loose = column == kNone ? 0.0 : s.soil.loose[column];
+  // Its pressure grows with depth and so acts a third up.
+  const Vec3d arm = Vec3d{f.x - out * away.x, f.y - out * away.y, foot + height / 3} - centre, turn = cross(arm, away);
+  return {{away.x, away.y, 0, turn.x, turn.y, turn.z},
+          width * laws::passive_force(s.media[f.material], height, loose, length(s.gravity))};
+}
+
 // Where the edge of a body stands in the ground it cuts through cells. Each column then counts with the area that is
 // covered and pushes in its middle; what is covered of cells whose vertices lie outside goes to the nearest column
 // inside, as only those are pressed. A plate's area and its balance are therefore exact on any grid, and steady when it
 // slides. Meeting the columns in those middles was tried: as these wander, the ground's memory of what pressed it did
 // not fit any more, and plates crept.
-void cover(const geometry::PosedSolid& body, double travel, const Situation& s, std::vector<Footing>& footings,
-           std::vector<geometry::Cover>& covers) {
-  covers.assign(footings.size(), {});
+void cover(const geometry::PosedSolid& body, double travel, const Situation& s, Scratch::PerBody& scratch) {
+  std::vector<Footing>& footings = scratch.footings;
+  std::vector<geometry::Cover>& covers = scratch.covers;
+  covers.assign(footings.size(), {}), scratch.walls.clear();
   const auto add = [&](std::size_t k, const geometry::Cover& c, double sign) {
     covers[k].area += sign * c.area, covers[k].x += sign * c.area * c.x, covers[k].y += sign * c.area * c.y;
   };
@@ -204,14 +224,18 @@ void cover(const geometry::PosedSolid& body, double travel, const Situation& s, 
       const double width = std::sqrt(f.area);
       Vec3d away;
       const double out = piece.outside(f.x, f.y, away);
-      if (std::abs(out) > 0.71 * width) continue;
+      if (out < -0.71 * width || out > width) continue;
       // Is it the edge of a flat side, in the ground, or may it come there?
       const double inward = out + kInside * width;
       const geometry::Underside edge = piece.underside(f.x - away.x * inward, f.y - away.y * inward);
       if (!edge.below || -edge.normal.z < kFlat || edge.height >= f.height + travel) continue;
+      // One row of cells stands before each side.
+      if (out > 0 && edge.height < f.height && s.media[f.material].ground)
+        scratch.walls.push_back(wall_at(f, away, out, width, edge.height, piece, body.position(), s));
+      if (out > 0.71 * width) continue;
       any = true;
       const geometry::Cover covered = piece.covered(f.x, f.y, width);
-      if (out <= 0) {
+      if (out <= kComes * width || (out < kStays * width && find_press(scratch.presses, f.vertex) != nullptr)) {
         add(k, covered, 1), add(k, {f.area, f.vertex_position.x, f.vertex_position.y}, -1);
         // The edge itself may move outward of the vertex within the step.
         const double nudge = std::max(0.0, out + kInside * width);
@@ -294,14 +318,14 @@ Vec3d across_ground(const std::vector<Footing>& footings, double spacing) {
 
 void gather(const state::Body& body, const Situation& s, Scratch::PerBody& scratch) {
   std::vector<Footing>& footings = scratch.footings;
-  footings.clear();
+  footings.clear(), scratch.walls.clear();
   const double reach = step_reach(body, s);
   for (const std::uint32_t vertex : body.near)
     if (scratch.start.within_reach(s.surface.position[vertex], reach)) footings.push_back(footing_at(vertex, s));
   if (footings.empty()) return;
   scratch.end.place(*body.solid, body.position + s.dt * body.velocity,
                     math::spun(body.orientation, body.angular_velocity, s.dt), true);
-  cover(scratch.end, reach - 0.5 * s.surface.spacing, s, footings, scratch.covers);
+  cover(scratch.end, reach - 0.5 * s.surface.spacing, s, scratch);
   for (const geometry::PosedPiece& piece : scratch.end.pieces()) meet_on_ridge(piece, s, scratch);
   meet_small_body(scratch.end, s, footings);
   double sum = 0;

@@ -11,6 +11,9 @@
 namespace divot::contact {
 namespace {
 
+// Soil before a wall resists with all its strength from this speed on, m/s; a wall that rests there feels nothing.
+constexpr double kPushed = 0.01;
+
 // Joints pull with this many times the inertia that a body has along their lines.
 constexpr double kGuide = 10;
 
@@ -58,6 +61,7 @@ struct Balance {
   const state::Body& body;
   const std::vector<Footing>& footings;
   const std::vector<Contact>& contacts;
+  const std::vector<Wall>& walls;
   const Situation& s;
   Row start;        // velocity and spin with gravity and without soil
   Matrix6 inertia;  // lower half
@@ -79,6 +83,12 @@ struct Balance {
       const double weight = weight_of(guide);
       add_scaled(r, guide.line, weight * (guide.speed - dot6(guide.line, v)));
       if (a != nullptr) add_outer(*a, guide.line, weight);
+    }
+    for (const Wall& wall : walls) {
+      const double inward = dot6(wall.inward, v);
+      if (inward <= 0) continue;
+      add_scaled(r, wall.inward, -s.dt * wall.force * std::min(1.0, inward / kPushed));
+      if (a != nullptr && inward < kPushed) add_outer(*a, wall.inward, s.dt * wall.force / kPushed);
     }
     for (const Contact& c : contacts) {
       const Footing& f = footings[c.footing];
@@ -166,7 +176,7 @@ bool rebound(state::Body& body, const std::vector<Footing>& footings, const std:
   const Vec3d up = sum * (1 / length(sum));
   const double resting = 2 * length(s.gravity) * s.dt;  // what gravity alone brings is no impact
   const double approach = -dot(before, up);
-  if (!body.touching && approach > resting) body.impact_speed = approach;
+  if (!body.touching && approach > resting) body.impact_speed = std::max(body.impact_speed, approach);
   const double leaving = dot(body.velocity, up);
   if (body.impact_speed == 0 || leaving < -0.02 * body.impact_speed) return false;
   const double wanted = body.restitution * s.media[hardest->material].restitution * body.impact_speed;
@@ -227,7 +237,7 @@ void meet_soil(state::Body& body, const Situation& s, Scratch::PerBody& scratch,
   // What carries a chassis would press its wheel deep into the ground without the soil: then the velocity it has is
   // nearer to the one it will have, and with it the geometry.
   Row v = body.held_impulse == Row{} ? start : math::row(before, spin);
-  Balance balance{body, footings, contacts, s, start, resistance.whole, scratch.guides};
+  Balance balance{body, footings, contacts, scratch.walls, s, start, resistance.whole, scratch.guides};
   for (int pass = 0; pass < kPasses; ++pass) {
     freeze_geometry(body, {body.position, body.orientation}, v, s, scratch);
     if (contacts.empty()) {

@@ -100,6 +100,26 @@ Split split(double side) {
 
 using Sectors = std::array<double, kSectors>;
 
+// Where a body's underside moves sideways over the ground, what it comes down explains only a part of the sinkage of a
+// column: the share of the rest.
+double pushed_share(const state::Body& body, const state::Particles& p, std::uint32_t i, double dt, Vec3d& moves) {
+  // In the middle of the step, where what rolls came down as much as the column has sunk.
+  const Vec3d arm = to_double(p.position(i)) - (body.position - 0.5 * dt * body.velocity);
+  moves = body.velocity + cross(body.angular_velocity, arm);
+  return 1 - std::min(1.0, std::max(0.0, -moves.z) * dt / p.yielded[i]);
+}
+
+// How far ahead lies what a body pushes on, m: a heap as high as what it pushed in this step, at its angle of repose.
+double heap_length(const state::Body& body, std::span<const std::uint32_t> carried, std::span<const laws::Medium> media,
+                   double dt, const state::Particles& p) {
+  double most = 0;
+  Vec3d moves;
+  for (const std::uint32_t i : carried)
+    if (p.yielded[i] > 0)
+      most = std::max(most, pushed_share(body, p, i, dt, moves) * p.yielded[i] / media[p.material[i]].tan_repose);
+  return most;
+}
+
 // What flows out from under the body by the side on which it comes out, m^3. Books of the columns it leaves are kept.
 double squeeze_out(const state::Body& body, const Patch& patch, std::span<const std::uint32_t> carried,
                    std::span<const laws::Medium> media, const Step& step, Ground& ground, Sectors& volume) {
@@ -120,11 +140,8 @@ double squeeze_out(const state::Body& body, const Patch& patch, std::span<const 
     // The soil has failed where Bekker's curve has passed what it bears.
     const double pressed = laws::bekker_pressure<double>(medium, soil.plastic[column], body.patch_width);
     if (pressed < laws::bearing_capacity(medium, body.patch_width, step.gravity)) continue;
-    // In the middle of the step, where what rolls came down as much as the column has sunk.
-    const Vec3d arm = to_double(p.position(i)) - (body.position - 0.5 * step.dt * body.velocity);
-    const Vec3d moves = body.velocity + cross(body.angular_velocity, arm);
-    // What the body comes down explains a part of the sinkage; it moved sideways over the rest.
-    const double pushed = 1 - std::min(1.0, std::max(0.0, -moves.z) * step.dt / p.yielded[i]);
+    Vec3d moves;
+    const double pushed = pushed_share(body, p, i, step.dt, moves);
 
     const double area = soil.area[column], elastic = std::max(0.0f, soil.rest[column].z - p.z[i]);
     const double lost = soil.compacted[column] / area - elastic;
@@ -220,11 +237,16 @@ float lay_beside(Ground& ground, const Sectors& room, const Sectors& volume, con
 void flow_from_under(const state::Body& body, std::span<const std::uint32_t> carried,
                      std::span<const laws::Medium> media, const Step& step, Ground& ground, FlowScratch& scratch) {
   const Patch patch = patch_of(ground, carried);
-  const double reach = kBermWidth * body.patch_width + 1.5 * ground.surface.spacing;
-  find_beside(ground, carried, reach, scratch);
+  const double slope = kBermWidth * body.patch_width + 1.5 * ground.surface.spacing;
+  const double heap = heap_length(body, carried, media, step.dt, ground.particles);
+  find_beside(ground, carried, slope + heap, scratch);
+  const Flat going = unit({body.velocity.x, body.velocity.y});
   Sectors room{}, volume{};
   for (FlowScratch::Beside& b : scratch.beside) {
-    b.weight = state::vertex_area(ground.surface, b.vertex) * (1 - b.distance / reach);
+    // Ahead over the whole heap, which goes on as it is; elsewhere next to the patch.
+    const double ahead = std::max(0.0, dot(unit(place_of(ground, b.vertex) - Flat{b.x, b.y}), going));
+    const double share_here = std::clamp((slope + ahead * heap - b.distance) / slope, 0.0, 1.0);
+    b.weight = state::vertex_area(ground.surface, b.vertex) * share_here;
     b.side = patch.side_of(patch.to_circle(Flat{b.x, b.y} - patch.centre));
     const auto [low, high, share] = split(b.side);
     room[low] += (1 - share) * b.weight, room[high] += share * b.weight;
