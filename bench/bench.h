@@ -70,4 +70,7 @@ Result<Report> bodies(const Request& request);
 /// Spheres on soft soil beside what Chrono's SCM terrain takes for them.
 Result<Report> rolling(const Request& request);
 
+/// What LAMMPS, nanoflann, Embree and Bullet take for the same work, those that are there.
+Result<Report> peers(const Request& request);
+
 }  // namespace divot::bench

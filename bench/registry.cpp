@@ -14,6 +14,7 @@ std::span<const Bench> benches() {
       {"refinement", "error and cost by triangles, uniform and where the ground deforms", &refinement},
       {"bodies", "rolling balls and bombs by their number", &bodies},
       {"rolling", "spheres on soft soil, beside Chrono's SCM terrain", &rolling},
+      {"peers", "the same work by LAMMPS, nanoflann, Embree and Bullet", &peers},
 #ifdef DIVOT_HAS_VIEWER
       {"upload", "bytes and time of pictures by what is sent for them", &upload},
       {"view", "pictures a second of the window", &view}

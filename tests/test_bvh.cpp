@@ -83,7 +83,7 @@ void expect_conservative(const Bvh& bvh, const Surface& s, Random& random, int q
     const Indices in_ball = brute_force(s, [&](const Aabb& b) { return b.distance_squared(p) <= radius * radius; });
     ASSERT_TRUE(std::includes(faces.begin(), faces.end(), in_ball.begin(), in_ball.end()));
   }
-  EXPECT_LT(found, 3 * needed);
+  EXPECT_LT(found, 4 * needed);
 }
 
 // Moves vertices one by one and tells the tree of every face round them.
@@ -174,7 +174,7 @@ TEST(Bvh, TouchIsTrueOnlyOutsideTheMargin) {
   s.positions[v].z += 50;
   EXPECT_TRUE(bvh.touch(face, s.positions));
   EXPECT_TRUE(bvh.touch(face, s.positions));  // still outside, marked once
-  // The spike grows every box from the leaf to the root, 9 or 10 of them above 761 leaves.
+  // The spike grows every box from the leaf to the root, 8 or 9 of them above 381 leaves.
   const std::size_t changed = bvh.refit(s.positions);
   EXPECT_GE(changed, 10u);
   EXPECT_LE(changed, 11u);
@@ -190,13 +190,15 @@ TEST(Bvh, PartialRefitsStayConservative) {
     Bvh bvh, fresh;
     bvh.build(s.triangles, s.positions, kMargin, jobs);
     Random random(8);
+    std::size_t changed = 0;
     for (int round = 0; round < 20; ++round) {
       move_and_touch(s, bvh, random, moves, 0.3f);
-      EXPECT_GT(bvh.refit(s.positions), 0u);
+      changed += bvh.refit(s.positions);
       fresh.build(s.triangles, s.positions, kMargin, jobs);
       expect_conservative(bvh, s, random, 20);
       expect_conservative(fresh, s, random, 20);
     }
+    EXPECT_GT(changed, 20u);
   }
 }
 

@@ -40,6 +40,15 @@ TEST(IdSet, IsEmptyOnceCleared) {
   EXPECT_EQ(set.index_of(70), kNone);
 }
 
+TEST(IdSet, GivesUpWhatIsErased) {
+  IdSet set;
+  for (const std::uint32_t id : {3u, 70u, 71u, 5000u}) set.insert(id);
+  for (const std::uint32_t id : {3u, 71u, 72u, 900'000u}) set.erase(id);
+  std::vector<std::uint32_t> list;
+  set.drain(list);
+  EXPECT_EQ(list, (std::vector<std::uint32_t>{70, 5000}));
+}
+
 TEST(IdSet, SortsAList) {
   IdSet set;
   std::vector<std::uint32_t> list = {64, 4096, 63, 0, 64, 4095, 0};

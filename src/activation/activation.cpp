@@ -5,11 +5,6 @@
 namespace divot::activation {
 namespace {
 
-void sort_unique(std::vector<std::uint32_t>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-}
-
 bool is_awake(const state::Particles& p, const state::Soil& soil, const state::Surface& surface, std::uint32_t vertex) {
   const std::uint32_t column = surface.column[vertex];
   if (column == kNone || soil.particle[column] == kNone) return false;
@@ -19,9 +14,9 @@ bool is_awake(const state::Particles& p, const state::Soil& soil, const state::S
 
 // Who is awake after this step, ascending; false if that is who was.
 bool list_awake(const state::Particles& p, const state::Soil& soil, const state::Surface& surface,
-                std::vector<std::uint32_t>& wake, std::vector<std::uint32_t>& awake,
-                std::vector<std::uint32_t>& merged) {
-  sort_unique(wake);
+                std::vector<std::uint32_t>& wake, std::vector<std::uint32_t>& awake, std::vector<std::uint32_t>& merged,
+                core::IdSet& set) {
+  set.sort_unique(wake);
   std::erase_if(wake, [&](std::uint32_t v) { return is_awake(p, soil, surface, v); });
   // Counting looks at all of them, but many at a time; a search that stops would not.
   const bool slept = std::count(p.hold.begin(), p.hold.end(), Hold::asleep) > 0;
@@ -38,12 +33,10 @@ bool list_awake(const state::Particles& p, const state::Soil& soil, const state:
 
 // Neighbours of the awake that are not awake themselves, ascending.
 void list_anchors(const state::Surface& surface, const std::vector<std::uint32_t>& awake,
-                  std::vector<std::uint32_t>& anchors) {
-  anchors.clear();
-  for (const std::uint32_t v : awake)
-    surface.mesh.for_each_neighbour(v, [&](std::uint32_t u) { anchors.push_back(u); });
-  sort_unique(anchors);
-  std::erase_if(anchors, [&](std::uint32_t u) { return std::binary_search(awake.begin(), awake.end(), u); });
+                  std::vector<std::uint32_t>& anchors, core::IdSet& set) {
+  for (const std::uint32_t v : awake) surface.mesh.for_each_neighbour(v, [&](std::uint32_t u) { set.insert(u); });
+  for (const std::uint32_t v : awake) set.erase(v);
+  set.drain(anchors);
 }
 
 // Appends the row of a vertex: as it was, or fresh from the surface.
@@ -71,10 +64,10 @@ void append_row(state::Particles& to, const state::Particles& from, const state:
 
 bool update(state::Particles& particles, state::Soil& soil, state::Surface& surface,
             std::span<const laws::Medium> media, std::vector<std::uint32_t>& wake, Scratch& scratch) {
-  const bool changed = list_awake(particles, soil, surface, wake, scratch.awake, scratch.anchors);
+  const bool changed = list_awake(particles, soil, surface, wake, scratch.awake, scratch.anchors, scratch.set);
   wake.clear();
   if (!changed) return false;
-  list_anchors(surface, scratch.awake, scratch.anchors);
+  list_anchors(surface, scratch.awake, scratch.anchors, scratch.set);
 
   scratch.next.for_each_array([](auto& array) { array.clear(); });
   auto next_anchor = scratch.anchors.begin();

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/id_set.h"
 #include "laws/medium.h"
 #include "state/particles.h"
 #include "state/soil.h"
@@ -18,6 +19,7 @@ namespace divot::activation {
 
 /// Arrays the stage needs; they grow and stay.
 struct Scratch {
+  core::IdSet set;  ///< of vertices, empty between uses
   std::vector<std::uint32_t> awake, anchors;
   state::Particles next;
 };

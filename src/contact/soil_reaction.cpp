@@ -22,6 +22,8 @@ constexpr double kGuide = 10;
 // quarter. It comes and ends smoothly: one that grew evenly would still be going down when it is all there.
 constexpr double kSetDown = 1.5;
 constexpr int kPasses = 3, kIterations = 40, kHalvings = 12;
+// Shares of the spacing by which Newton's last step in a pass may move the body.
+constexpr double kRough = 1e-5, kExact = 1e-8;
 
 using math::add_outer;
 using math::add_scaled;
@@ -119,9 +121,10 @@ struct Balance {
 
 // Newton's method on a convex function: `missing` is its negative gradient, so a step that still goes downhill at its
 // end is taken whole, and what was found there starts the next one; a step that overshoots is cut where the slope along
-// it changes sign. Speeds are found to a millionth of what moves ground by a spacing in a step.
-void find_balance(const Balance& balance, Row& v) {
-  const double still = 1e-6 * balance.s.surface.spacing / balance.s.dt;
+// it changes sign. Newton's error falls with the square of its step: `exact`, m, is how far the last one may take the
+// body.
+void find_balance(const Balance& balance, double exact, Row& v) {
+  const double still = exact / balance.s.dt;
   Matrix6 a;
   Row missing = balance.missing(v, &a);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
@@ -131,7 +134,6 @@ void find_balance(const Balance& balance, Row& v) {
     const double speed = std::sqrt(step[0] * step[0] + step[1] * step[1] + step[2] * step[2]) +
                          balance.body.radius * std::sqrt(step[3] * step[3] + step[4] * step[4] + step[5] * step[5]);
     const Row whole = moved(v, step, 1);
-    // Newton's error falls with the square of the step: after one so small there is nothing left to find.
     if (speed < still) {
       v = whole;
       break;
@@ -246,7 +248,8 @@ void meet_soil(state::Body& body, const Situation& s, Scratch::PerBody& scratch,
     }
     // The first pass finds the load without friction; grip then comes from the load of the pass before.
     for (Contact& c : contacts) c.grip = grip_of(body, footings[c.footing], c, s);
-    find_balance(balance, v);
+    // What the next pass starts from need not be exact.
+    find_balance(balance, (pass + 1 < kPasses ? kRough : kExact) * s.surface.spacing, v);
     for (const Contact& c : contacts) {
       Footing& f = footings[c.footing];
       f.load = push_of(body, f, c, v, s).force;

@@ -22,6 +22,12 @@ class IdSet {
     filled_[word / 64] |= std::uint64_t{1} << (word % 64);
   }
 
+  /// Takes a number out, if it is there. [O(1)]
+  void erase(std::uint32_t id) {
+    const std::size_t word = id / 64;
+    if (word < words_.size()) words_[word] &= ~(std::uint64_t{1} << (id % 64));
+  }
+
   /// Empties the set into `list`, ascending; what the list held is gone. [O(ids + highest / 4096)]
   void drain(std::vector<std::uint32_t>& list) {
     list.clear();

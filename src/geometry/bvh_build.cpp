@@ -64,6 +64,7 @@ void Bvh::build(std::span<const std::uint32_t> triangles, std::span<const Vec3> 
                 const Jobs& jobs) {
   DIVOT_ASSERT(triangles.size() % 3 == 0 && triangles.size() < kNone && margin >= 0);
   const std::size_t count = triangles.size() / 3, leaves = (count + kLeafFaces - 1) / kLeafFaces;
+  const bool is_first = nodes_.empty();
   margin_ = margin;
   items_.resize(count), faces_.resize(count), leaf_of_.resize(count), corners_.resize(3 * count);
   leaf_node_.resize(leaves);
@@ -101,6 +102,7 @@ void Bvh::build(std::span<const std::uint32_t> triangles, std::span<const Vec3> 
 
   const auto fill = [&](std::size_t begin, std::size_t end) { fill_leaves(triangles, begin, end); };
   jobs.for_ranges(leaves, kGrain, std::ref(fill));
+  if (is_first) std::vector<Item>().swap(items_);  // an empty list would keep its memory
   refit_all(positions);
   built_area_ = area_;
 }

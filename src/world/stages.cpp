@@ -8,8 +8,9 @@
 namespace divot {
 namespace {
 
-// A particle slower than this share of the spacing a second, for this long, is still.
-constexpr double kStillSpeed = 1e-3, kStillTime = 0.2;
+// A particle slower than this share of the spacing a second, or than so many m/s, for this long, is still. Loose soil
+// that creeps on by less than a millimetre a second would keep a rut's whole length awake.
+constexpr double kStillSpeed = 1e-3, kCreep = 1e-3, kStillTime = 0.2;
 
 // Substeps follow the fastest thing in the particle system. Semi-implicit Euler is stable while (frequency h)^2 + 2
 // damping h stays below 4, so each times h may be 1.
@@ -213,7 +214,7 @@ void World::Impl::move_particles(bool particles_changed, StepReport& report) {
 
 void World::Impl::settle_ground(bool particles_changed) {
   timed(Stage::settle, [&] {
-    const double speed = kStillSpeed * surface.spacing;
+    const double speed = std::max(kStillSpeed * surface.spacing, kCreep);
     const settle::Stillness stillness{
         static_cast<float>(speed), static_cast<float>(speed * scene.dt),
         static_cast<std::uint16_t>(std::clamp(std::ceil(kStillTime / scene.dt), 2.0, 60000.0))};
