@@ -56,7 +56,9 @@ class ByteWriter {
   std::string take() { return std::move(bytes_); }
 
  private:
-  void put_raw(const void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
+  void put_raw(const void* data, std::size_t size) {
+    if (size > 0) bytes_.append(static_cast<const char*>(data), size);  // there need be no memory otherwise
+  }
   void put_size(std::size_t size) { put(static_cast<std::uint64_t>(size)); }
 
   template <class T>
@@ -87,7 +89,7 @@ class ByteWriter {
   template <class... Ts>
   void put(const std::variant<Ts...>& value) {
     put(static_cast<std::uint8_t>(value.index()));
-    std::visit([this](const auto& held) { put(held); }, value);
+    std::visit([this](const auto& held) { this->put(held); }, value);
   }
 
   std::string bytes_;
@@ -119,6 +121,7 @@ class ByteReader {
  private:
   bool get_raw(void* data, std::size_t size) {
     if (size > left_.size()) return fail(), false;
+    if (size == 0) return true;  // there need be no memory
     std::memcpy(data, left_.data(), size);
     left_.remove_prefix(size);
     return true;
