@@ -130,49 +130,77 @@ TEST(Bodies, TheOriginOfAConeIsItsPositionAndNotItsCentreOfMass) {
   EXPECT_LT(tilt_deg(world.bodies()[0]), 0.2);
 }
 
-TEST(Bodies, MeshFilesBecomeHulls) {
-  const auto folder = std::filesystem::temp_directory_path() / "divot_hulls";
-  std::filesystem::create_directories(folder);
-  const double p[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+// A tetrahedron in each format.
+void write_tetrahedra(const std::filesystem::path& folder) {
+  const float p[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const std::uint16_t faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
   std::ofstream obj(folder / "a.obj"), ply(folder / "a.ply"), text(folder / "a.stl");
-  std::ofstream binary(folder / "b.stl", std::ios::binary);
-  ply << "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
-  text << "solid a\nfacet normal 0 0 0\nouter loop\n";
-  binary << std::string(80, ' ');
-  const std::uint32_t facets = 2;
-  binary.write(reinterpret_cast<const char*>(&facets), 4);
+  std::ofstream stl(folder / "b.stl", std::ios::binary), glb(folder / "a.glb", std::ios::binary);
+  const auto raw = [](std::ofstream& to, const auto& value) {
+    to.write(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  ply << "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+         "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
   for (const auto& v : p) {
     obj << "v " << v[0] << ' ' << v[1] << ' ' << v[2] << '\n';
     ply << v[0] << ' ' << v[1] << ' ' << v[2] << '\n';
-    text << "vertex " << v[0] << ' ' << v[1] << ' ' << v[2] << '\n';
   }
-  for (const auto& corners : {std::array{0, 1, 2}, std::array{0, 2, 3}}) {
-    const auto number = [&](double value) {
-      const auto f = static_cast<float>(value);
-      binary.write(reinterpret_cast<const char*>(&f), 4);
-    };
-    for (int k = 0; k < 3; ++k) number(0);
-    for (const int corner : corners)
-      for (const double x : p[corner]) number(x);
-    binary << "  ";
+  text << "solid a\n";
+  stl << std::string(80, ' ');
+  raw(stl, std::uint32_t{4});
+  for (const auto& face : faces) {
+    obj << "f " << face[0] + 1 << ' ' << face[1] + 1 << ' ' << face[2] + 1 << '\n';
+    ply << "3 " << face[0] << ' ' << face[1] << ' ' << face[2] << '\n';
+    text << "facet normal 0 0 0\nouter loop\n";
+    for (int k = 0; k < 3; ++k) raw(stl, 0.0f);
+    for (const int corner : face) {
+      text << "vertex " << p[corner][0] << ' ' << p[corner][1] << ' ' << p[corner][2] << '\n';
+      raw(stl, p[corner]);
+    }
+    text << "endloop\nendfacet\n";
+    stl << "  ";
   }
-  for (std::ofstream* file : {&obj, &ply, &text, &binary}) file->close();
-  for (const char* name : {"a.obj", "a.ply", "a.stl", "b.stl"}) {
+  text << "endsolid a\n";
+  std::string json =
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"buffers":[{"byteLength":72}],)"
+      R"("bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24}],"accessors":[)"
+      R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,1]},)"
+      R"({"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}]})";
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  glb << "glTF";
+  raw(glb, std::uint32_t{2}), raw(glb, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + 72));
+  raw(glb, static_cast<std::uint32_t>(json.size()));
+  glb << "JSON" << json;
+  raw(glb, std::uint32_t{72});
+  glb.write("BIN\0", 4);
+  raw(glb, p), raw(glb, faces);
+}
+
+TEST(Bodies, MeshFilesBecomeHulls) {
+  const auto folder = std::filesystem::temp_directory_path() / "divot_hulls";
+  std::filesystem::create_directories(folder);
+  write_tetrahedra(folder);
+  std::ofstream(folder / "far.obj") << "v 0 0 0\nv 2e6 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n";
+  const auto with_hull = [&](const char* name) {
     Scene scene = scene_on("dry_sand", 0.1);
     scene.folder = folder.string();
     scene.bodies = {{.name = "rock", .shape = Hull{.file = name}, .mass = 100, .above_ground = true}};
-    const World world = make_world(scene);
-    EXPECT_EQ(std::get<Hull>(*world.bodies()[0].shape).points.size(), 4u) << name;
+    return World::create(scene);
+  };
+  for (const char* name : {"a.obj", "a.ply", "a.stl", "b.stl", "a.glb"}) {
+    const auto world = with_hull(name);
+    ASSERT_TRUE(world) << world.error().front().text();
+    EXPECT_EQ(std::get<Hull>(*world->bodies()[0].shape).points.size(), 4u) << name;
   }
-  Scene scene = scene_on("dry_sand", 0.1);
-  scene.bodies = {{.name = "rock", .shape = Hull{.file = "none.obj"}, .mass = 100, .above_ground = true}};
-  const auto world = World::create(scene);
-  ASSERT_FALSE(world);
-  const std::string error = world.error().front().text();
-  EXPECT_NE(
-      error.find("none.obj: bodies.rock.shape: cannot be read: No such file or directory; expected an OBJ, STL or "),
-      std::string::npos)
-      << error;
+  for (const auto& [name, problem] :
+       {std::pair{"none.obj", "cannot be read: No such file or directory"},
+        {"far.obj", "holds coordinates that are no places; expected numbers up to 1e6"}}) {
+    const auto world = with_hull(name);
+    ASSERT_FALSE(world);
+    const std::string error = world.error().front().text();
+    EXPECT_NE(error.find(std::string(name) + ": bodies.rock.shape: " + problem), std::string::npos) << error;
+  }
   std::filesystem::remove_all(folder);
 }
 

@@ -41,8 +41,9 @@ struct Cone {
 
 /// The convex hull of a mesh or of points; the origin is theirs.
 struct Hull {
-  std::string file = {};  ///< OBJ, STL or PLY; relative paths start at the scene's folder; empty: `points` are given
-  double scale = 1;       ///< of what is read or given, > 0
+  std::string file =
+      {};            ///< OBJ, PLY, STL or glTF; relative paths start at the scene's folder; empty: `points` are given
+  double scale = 1;  ///< of what is read or given, > 0
   std::vector<Vec3d> points = {};  ///< m, at least 4 that span a volume; a BodyView has the corners of the hull here
   std::vector<std::uint32_t> triangles = {};  ///< [3 * face] indices into `points`, outward; only a BodyView has them
 };

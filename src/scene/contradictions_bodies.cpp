@@ -15,7 +15,7 @@ void note(Errors& errors, std::string key, std::string problem, std::string expe
 
 void check_hull(const Hull& hull, const std::string& path, Errors& errors) {
   if (hull.file.empty() && hull.points.empty())
-    note(errors, path + ".file", "is missing", "expected the name of an OBJ, STL or PLY file");
+    note(errors, path + ".file", "is missing", "expected the name of an OBJ, PLY, STL or glTF file");
 }
 
 void check_shape(const Shape& shape, const std::string& path, Errors& errors) {

@@ -53,11 +53,11 @@ void describe_convex(Visitor& v, std::size_t index, Variant& shape) {
   } else if (index == 5) {
     v.table({.name = "hull", .example = kHull.example}, [&] {
       auto& hull = as<Hull>(shape);
-      v.text(
-          {.name = "file",
-           .meaning = "OBJ, STL or PLY, whose convex hull is the shape; a relative path starts at the scene's folder",
-           .default_text = "required"},
-          hull.file);
+      v.text({.name = "file",
+              .meaning =
+                  "OBJ, PLY, STL or glTF, whose convex hull is the shape; a relative path starts at the scene's folder",
+              .default_text = "required"},
+             hull.file);
       v.number({.name = "scale", .range = above(0, kLong), .meaning = "metres for a unit of the file"}, hull.scale);
     });
   }

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "geometry/posed_solid.h"
-#include "scene/mesh_file.h"
+#include "meshfile/mesh_file.h"
 #include "state/region.h"
 
 namespace divot::place {
@@ -16,6 +16,8 @@ namespace {
 
 // Points of the underside that are held against the ground, in each direction.
 constexpr int kSamples = 41;
+// Of a mesh file, in its own units.
+constexpr double kMostCoordinate = 1e6;
 
 // Height of a ball's centre over x, y at which it touches the plane of a face, if it would touch it inside the face.
 std::optional<double> height_on_face(const std::array<Vec3, 3>& corner, double x, double y, double radius) {
@@ -57,12 +59,17 @@ std::optional<double> resting_height(const World::Impl& w, double x, double y, d
 Result<void> fill(const World::Impl& w, const BodySettings& body, Hull& hull) {
   if (hull.file.empty()) return {};
   const std::filesystem::path file(hull.file);
-  auto points = scene::read_mesh_points(file.is_absolute() ? file.string() : (w.scene.folder / file).string());
-  if (!points) {
-    points.error().front().key = fmt::format("bodies.{}.shape", body.name);
-    return tl::unexpected(points.error());
+  auto mesh = meshfile::read_mesh((w.scene.folder / file).string());  // an absolute path stays as it is
+  if (!mesh) {
+    mesh.error().front().key = fmt::format("bodies.{}.shape", body.name);
+    return tl::unexpected(mesh.error());
   }
-  hull.points = std::move(*points);
+  if (std::ranges::any_of(mesh->vertices, [](const Vec3d& p) { return length(p) > kMostCoordinate; }))
+    return fail({.file = (w.scene.folder / file).string(),
+                 .key = fmt::format("bodies.{}.shape", body.name),
+                 .problem = "holds coordinates that are no places",
+                 .expected = "expected numbers up to 1e6"});
+  hull.points = std::move(mesh->vertices);
   hull.file.clear();
   return {};
 }
