@@ -61,7 +61,7 @@ def test_dirty_ranges_name_all_that_moved():
 
 def test_particles_are_those_awake():
     world = divot.World(small())
-    world.run(0.3)
+    world.run(0.1)
     p = world.particles
     assert len(p["vertices"]) == len(p["x"]) == len(p["hold"]) > 10
     assert (np.diff(p["vertices"].astype(int)) > 0).all()
