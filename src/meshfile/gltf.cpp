@@ -42,7 +42,7 @@ Vec3d applied(const Matrix& m, const Vec3d& p) {
 
 // A node's own transform: a matrix, or translation, rotation (x, y, z, w) and scale.
 Matrix transform_of(const Json& node) {
-  if (node.contains("matrix")) return node["matrix"].get<Matrix>();
+  if (node.contains("matrix")) return node.at("matrix").get<Matrix>();
   const auto t = node.value("translation", std::array<double, 3>{0, 0, 0});
   const auto s = node.value("scale", std::array<double, 3>{1, 1, 1});
   const auto [x, y, z, w] = node.value("rotation", std::array<double, 4>{0, 0, 0, 1});
@@ -90,7 +90,7 @@ class Reader {
   TriangleMesh mesh() {
     const Json& nodes = member("nodes");
     if (json_.contains("scenes")) {
-      const Json& scene = at(json_["scenes"], json_.value("scene", 0));
+      const Json& scene = at(json_.at("scenes"), json_.value("scene", 0));
       for (const Json& root : scene.value("nodes", Json::array())) add_node(nodes, root.get<std::size_t>(), identity());
     } else {
       for (std::size_t k = 0; k < nodes.size(); ++k)
@@ -102,7 +102,7 @@ class Reader {
  private:
   std::string load(const std::filesystem::path& folder, const Json& buffer) {
     if (!buffer.contains("uri")) return std::string(binary_);
-    const std::string uri = buffer["uri"];
+    const std::string uri = buffer.at("uri");
     if (!uri.starts_with("data:")) {
       auto bytes = read_bytes((folder / uri).string());
       if (!bytes) throw Wrong{fmt::format("its buffer \"{}\" {}", uri, bytes.error().front().problem), {}};
@@ -128,8 +128,8 @@ class Reader {
     const Json& accessor = at(member("accessors"), index);
     if (accessor.contains("sparse")) throw Wrong{"an accessor is sparse", "expected plain ones"};
     const Json& view = at(member("bufferViews"), accessor.value("bufferView", ~std::size_t{0}));
-    const std::string& buffer = buffers_.at(view["buffer"].get<std::size_t>());
-    const std::size_t size = components * component_size, count = accessor["count"];
+    const std::string& buffer = buffers_.at(view.at("buffer").get<std::size_t>());
+    const std::size_t size = components * component_size, count = accessor.at("count");
     const std::size_t stride = view.value("byteStride", size);
     const std::size_t begin = view.value("byteOffset", std::size_t{0}) + accessor.value("byteOffset", std::size_t{0});
     const std::size_t room = begin < buffer.size() ? buffer.size() - begin : 0;
@@ -144,8 +144,8 @@ class Reader {
       for (std::uint32_t v = 0; v < vertices; ++v) out.push_back(v);
       return out;
     }
-    const std::size_t accessor = primitive["indices"];
-    const int type = at(member("accessors"), accessor)["componentType"];
+    const std::size_t accessor = primitive.at("indices");
+    const int type = at(member("accessors"), accessor).at("componentType");
     const std::size_t size = type == kByte ? 1 : type == kShort ? 2 : 4;
     if (type != kByte && type != kShort && type != kUint)
       throw Wrong{"indices are no integers", "expected glTF's types"};
@@ -162,7 +162,7 @@ class Reader {
     const int mode = primitive.value("mode", kTriangles);
     if (mode != kTriangles && mode != kStrip && mode != kFan) return;  // points and lines are no surface
     const std::size_t accessor = primitive.at("attributes").at("POSITION");
-    if (at(member("accessors"), accessor)["componentType"] != kFloat) throw Wrong{"positions are no floats", {}};
+    if (at(member("accessors"), accessor).at("componentType") != kFloat) throw Wrong{"positions are no floats", {}};
     const auto base = static_cast<std::uint32_t>(mesh_.vertices.size());
     each(accessor, 3, sizeof(float), [&](const char* bytes) {
       std::array<float, 3> p;
@@ -196,12 +196,12 @@ class Reader {
     const Matrix to_world = product(parent, transform_of(node));
     // Terrain that was written here says what floats have no digits for.
     Vec3d origin;
-    if (node.contains("extras") && node["extras"].is_object() && node["extras"].contains("origin")) {
-      const auto at_origin = node["extras"]["origin"].get<std::array<double, 3>>();
+    if (node.contains("extras") && node.at("extras").is_object() && node.at("extras").contains("origin")) {
+      const auto at_origin = node.at("extras").at("origin").get<std::array<double, 3>>();
       origin = {at_origin[0], at_origin[1], at_origin[2]};
     }
     if (node.contains("mesh"))
-      for (const Json& primitive : at(member("meshes"), node["mesh"]).at("primitives"))
+      for (const Json& primitive : at(member("meshes"), node.at("mesh")).at("primitives"))
         add_primitive(primitive, to_world, origin);
     for (const Json& child : node.value("children", Json::array()))
       add_node(nodes, child.get<std::size_t>(), to_world, depth + 1);
