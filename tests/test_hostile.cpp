@@ -11,7 +11,7 @@ namespace {
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 /// Puts a hostile value into the n-th number of a scene, counting the components of vectors.
-class Saboteur : public scene::Visitor {
+class Saboteur : public scene::HeldVisitor {
  public:
   /// `which`: of the values that are tried at each number.
   Saboteur(std::size_t number, std::size_t which) : number_(number), which_(which) {}
@@ -45,13 +45,6 @@ class Saboteur : public scene::Visitor {
   void legend(const scene::Key&, std::vector<LegendEntry>&) override {}
   void policy(const scene::Key&, UpdatePolicy&) override {}
   void base(const scene::Key&, Material&, std::span<const Material>) override {}
-  std::vector<std::size_t> branches(std::span<const scene::Branch>, std::size_t current) override { return {current}; }
-  std::size_t list_size(const scene::Key&, std::size_t count) override { return count; }
-  std::vector<std::string> material_names(std::span<const Material> current) override {
-    std::vector<std::string> names;
-    for (const Material& material : current) names.push_back(material.name);
-    return names;
-  }
 
  private:
   // The ends of the key's own range are the worst of what is allowed.

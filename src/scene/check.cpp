@@ -12,7 +12,7 @@ namespace scene {
 namespace {
 
 /// Holds every key of a scene against its range.
-class Checker : public Visitor {
+class Checker : public HeldVisitor {
  public:
   /// `field_names`: errors name the struct's fields, not the file's keys.
   explicit Checker(bool field_names) : field_names_(field_names) {}
@@ -47,14 +47,6 @@ class Checker : public Visitor {
     note(out_of_range(name(key) + ".every", kEvery, std::int64_t{value.steps}));
   }
   void base(const Key&, Material&, std::span<const Material>) override {}
-
-  std::vector<std::size_t> branches(std::span<const Branch>, std::size_t current) override { return {current}; }
-  std::size_t list_size(const Key&, std::size_t count) override { return count; }
-  std::vector<std::string> material_names(std::span<const Material> current) override {
-    std::vector<std::string> names;
-    for (const Material& material : current) names.push_back(material.name);
-    return names;
-  }
 
  private:
   std::string name(const Key& key) const {

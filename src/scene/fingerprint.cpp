@@ -9,7 +9,7 @@ namespace divot::scene {
 namespace {
 
 /// Adds up where each key stands and what it holds.
-class Hasher : public Visitor {
+class Hasher : public HeldVisitor {
  public:
   core::Hash hash;
 
@@ -46,14 +46,6 @@ class Hasher : public Visitor {
     start(key), add(static_cast<int>(value.kind)), add(value.steps);
   }
   void base(const Key&, Material&, std::span<const Material>) override {}  // what it gives is in the material's keys
-
-  std::vector<std::size_t> branches(std::span<const Branch>, std::size_t current) override { return {current}; }
-  std::size_t list_size(const Key&, std::size_t count) override { return count; }
-  std::vector<std::string> material_names(std::span<const Material> current) override {
-    std::vector<std::string> names;
-    for (const Material& material : current) names.push_back(material.name);
-    return names;
-  }
 
   void add(std::string_view text) {
     add(text.size());

@@ -32,6 +32,12 @@ void Visitor::pop() {
   outer_.pop_back();
 }
 
+std::vector<std::string> HeldVisitor::material_names(std::span<const Material> current) {
+  std::vector<std::string> names;
+  for (const Material& material : current) names.push_back(material.name);
+  return names;
+}
+
 std::string number_text(double value, int digits) {
   if (std::fabs(value) < 1e7 && value == std::floor(value)) return fmt::format("{:.0f}", value);
   // Six digits where they say it all, which makes 1e12 of 1000000000000; otherwise as many as it takes.

@@ -140,6 +140,14 @@ class Visitor {
   std::vector<std::string> outer_;
 };
 
+/// Walks over what a scene holds, and nothing else.
+class HeldVisitor : public Visitor {
+ public:
+  std::vector<std::size_t> branches(std::span<const Branch>, std::size_t current) override { return {current}; }
+  std::size_t list_size(const Key&, std::size_t count) override { return count; }
+  std::vector<std::string> material_names(std::span<const Material> current) override;
+};
+
 /// Shortest text that reads back as `value`, as 1e12 or 0.25; rounded to `digits` significant ones where given.
 std::string number_text(double value, int digits = 0);
 

@@ -36,12 +36,6 @@ std::size_t Writer::list_size(const Key& key, std::size_t count) {
   return count;
 }
 
-std::vector<std::string> Writer::material_names(std::span<const Material> current) {
-  std::vector<std::string> names;
-  for (const Material& material : current) names.push_back(material.name);
-  return names;
-}
-
 void Writer::enter_table(const Key& key, const std::string& path) {
   put(key, toml::table{});
   tables_.push_back((*tables_.back())[key.name].as_table());

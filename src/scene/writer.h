@@ -9,7 +9,7 @@ namespace divot::scene {
 
 /// Makes a TOML document of what is described, so that reading it gives the same values. Keys without a value are left
 /// out.
-class Writer : public Visitor {
+class Writer : public HeldVisitor {
  public:
   toml::table document;
 
@@ -34,9 +34,7 @@ class Writer : public Visitor {
   void policy(const Key& key, UpdatePolicy& value) override;
   void base(const Key&, Material&, std::span<const Material>) override {}  // every key of the material is written
 
-  std::vector<std::size_t> branches(std::span<const Branch>, std::size_t current) override { return {current}; }
   std::size_t list_size(const Key& key, std::size_t count) override;
-  std::vector<std::string> material_names(std::span<const Material> current) override;
 
  protected:
   void enter_table(const Key& key, const std::string& path) override;
