@@ -26,10 +26,20 @@ namespace {
   _exit(126);
 }
 
+// False where `child` ended before. It is left to be waited for.
+bool runs_until(pid_t child, const std::function<bool()>& due) {
+  while (!due()) {
+    siginfo_t ended{};
+    waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+    if (ended.si_pid == child) return false;
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+  return true;
+}
+
 }  // namespace
 
-Outcome run_program(const std::vector<std::string>& arguments, const fs::path& folder, int signal_after_ms,
-                    int signal) {
+Outcome run_program(const std::vector<std::string>& arguments, const fs::path& folder, const Signal& signal) {
   // Beside the folder, so that the folder holds only what the program left there.
   const std::string out = folder.string() + ".out", err = folder.string() + ".err";
   std::vector<std::string> words = {DIVOT_PROGRAM};
@@ -40,10 +50,7 @@ Outcome run_program(const std::vector<std::string>& arguments, const fs::path& f
 
   const pid_t child = fork();
   if (child == 0) become_program(pointers, folder.c_str(), out.c_str(), err.c_str());
-  if (signal_after_ms > 0) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(signal_after_ms));
-    kill(child, signal);
-  }
+  if (signal.due && runs_until(child, signal.due)) kill(child, signal.number);
   int status = 0;
   rusage used{};
   wait4(child, &status, 0, &used);

@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,15 @@ struct Outcome {
   long peak_kb = 0;  ///< most memory it held
 };
 
-/// Runs `divot` with `arguments` in `folder`, its output going to no terminal. `signal_after_ms` > 0: sends `signal`
-/// then.
+/// A signal for a program that runs, sent once `due` says so.
+struct Signal {
+  int number = SIGINT;
+  std::function<bool()> due;  ///< asked every 0.1 ms; empty: never
+};
+
+/// Runs `divot` with `arguments` in `folder`, its output going to no terminal.
 Outcome run_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-                    int signal_after_ms = 0, int signal = SIGINT);
+                    const Signal& signal = {});
 
 /// Everything in a file; empty where there is none.
 std::string read_text(const std::filesystem::path& file);
