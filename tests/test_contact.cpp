@@ -219,6 +219,20 @@ TEST(ContactRolling, SoftGroundStopsWhatHardGroundDoesNot) {
   EXPECT_LT(speed_after("mud"), 0.5 * speed_after("asphalt"));
 }
 
+// The patch is two cells wide on the coarse grid: its columns still resist as they do on a fine one.
+TEST(ContactRolling, HowFarABallRollsDependsLittleOnTheGrid) {
+  const auto way = [](double spacing) {
+    Scene scene = ball_scene("dry_sand", spacing, 0.6, 600, static_cast<int>(12 / spacing) + 1);
+    scene.bodies[0].position.x = -5, scene.bodies[0].velocity = {3, 0, 0}, scene.bodies[0].angular_velocity = {0, 5, 0};
+    World world = make_world(scene);
+    run_to(world, 2);
+    return world.bodies()[0].position.x + 5;
+  };
+  const double fine = way(0.1);
+  EXPECT_GT(fine, 3);
+  EXPECT_NEAR(way(0.2), fine, 0.04 * fine);
+}
+
 // ---- odd places
 
 TEST(Contact, ABallBornInTheGroundIsNotThrownOut) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "contact/near.h"
 #include "laws/bekker.h"
@@ -74,6 +75,9 @@ std::vector<Footing>::iterator nearest_to(double x, double y, std::vector<Footin
                           [&](const Footing& a, const Footing& b) { return squared(a) < squared(b); });
 }
 
+// Share of a column's distance from the line of touch that it keeps in soft ground.
+constexpr double kRolledAside = 0.5;
+
 // A line of touch from above.
 struct Line {
   double x, y, dx, dy, squared;
@@ -83,6 +87,8 @@ struct Line {
   // Where along it a column's foot is, from 0 to 1, or beyond its ends.
   double along(const Footing& f) const { return ((f.x - x) * dx + (f.y - y) * dy) / squared; }
   double foot(const Footing& f) const { return std::clamp(along(f), 1e-6, 1 - 1e-6); }
+  // How far a column is left of it, in lengths of the line.
+  double beside(const Footing& f) const { return ((f.y - y) * dx - (f.x - x) * dy) / squared; }
   double distance(const Footing& f, double at) const { return std::hypot(f.x - x - at * dx, f.y - y - at * dy); }
 };
 
@@ -109,8 +115,8 @@ void choose_on_line(const Line& line, double spacing, const std::vector<Footing>
 
 // Each column carries the part of the line that is nearer to its foot than to any other's, in the middle of that, with
 // such a share of the area of all: where feet stand unevenly, a wheel that crosses the grid at an angle would tilt to
-// and fro otherwise, and brake and turn by that.
-void share_line(const Line& line, const Situation& s, std::vector<Footing>& footings,
+// and fro otherwise, and brake and turn by that. It keeps `aside` of its distance from the line.
+void share_line(const Line& line, double aside, const Situation& s, std::vector<Footing>& footings,
                 std::vector<std::uint32_t>& chosen) {
   std::sort(chosen.begin(), chosen.end(), [&](std::uint32_t a, std::uint32_t b) {
     const double at_a = line.foot(footings[a]), at_b = line.foot(footings[b]);
@@ -121,16 +127,26 @@ void share_line(const Line& line, const Situation& s, std::vector<Footing>& foot
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     Footing& f = footings[chosen[i]];
     const double to = i + 1 < chosen.size() ? 0.5 * (line.foot(f) + line.foot(footings[chosen[i + 1]])) : 1;
-    const double middle = 0.5 * (from + to);
+    const double middle = 0.5 * (from + to), beside = aside * line.beside(f);
     f.area = std::max((to - from) * area, 0.01 * f.area);
-    meet_at(s, line.x + middle * line.dx, line.y + middle * line.dy, f);
+    meet_at(s, line.x + middle * line.dx - beside * line.dy, line.y + middle * line.dy + beside * line.dx, f);
     from = to;
   }
 }
 
+// How much of its distance from the line of touch a column keeps under a patch so wide, m.
+double kept_aside(double patch_width, double spacing) {
+  return kRolledAside * std::clamp(patch_width / spacing - 1, 0.0, 1.0);
+}
+
 // Vertices sample the ground too coarsely for a hard ball or wheel on hard ground: it would drop between them. The
-// columns that its line of touch runs through are therefore met on that line instead of at their vertices.
-void meet_on_ridge(const geometry::PosedPiece& piece, const Situation& s, Scratch::PerBody& scratch) {
+// columns that its line of touch runs through are therefore met on that line instead of at their vertices. Where the
+// ground is so soft that the patch is several columns wide, halfway to it: what rolls still presses the part of a cell
+// that lies before the line, and has left the part behind it. On the line itself a wheel would find the last of its way
+// down done without having pushed forward for it, and roll too easily; at the vertex it would drop whenever it leaves
+// one.
+void meet_on_ridge(const geometry::PosedPiece& piece, double patch_width, const Situation& s,
+                   Scratch::PerBody& scratch) {
   std::vector<Footing>& footings = scratch.footings;
   const Vec3d middle = 0.5 * (piece.low + piece.high);
   const auto below = nearest_to(middle.x, middle.y, footings);
@@ -138,14 +154,16 @@ void meet_on_ridge(const geometry::PosedPiece& piece, const Situation& s, Scratc
   if (!ridge) return;
   const Line line(*ridge);
   if (line.squared < 1e-12) {
+    // Of a round patch the width is its radius; a square as large has this side.
+    const double half = 0.5 * s.surface.spacing, side = std::sqrt(std::numbers::pi) * patch_width;
+    const double aside = kept_aside(side, s.surface.spacing);
     const auto touched = nearest_to(line.x, line.y, footings);
-    const double half = 0.5 * s.surface.spacing;
     if (std::abs(touched->x - line.x) <= half && std::abs(touched->y - line.y) <= half)
-      meet_at(s, line.x, line.y, *touched);
+      meet_at(s, line.x + aside * (touched->x - line.x), line.y + aside * (touched->y - line.y), *touched);
     return;
   }
   choose_on_line(line, s.surface.spacing, footings, scratch.found, scratch.ring);
-  share_line(line, s, footings, scratch.ring);
+  share_line(line, kept_aside(patch_width, s.surface.spacing), s, footings, scratch.ring);
 }
 
 // From `start` over the half-edges to the vertex nearest to x, y.
@@ -326,7 +344,7 @@ void gather(const state::Body& body, const Situation& s, Scratch::PerBody& scrat
   scratch.end.place(*body.solid, body.position + s.dt * body.velocity,
                     math::spun(body.orientation, body.angular_velocity, s.dt), true);
   cover(scratch.end, reach - 0.5 * s.surface.spacing, s, scratch);
-  for (const geometry::PosedPiece& piece : scratch.end.pieces()) meet_on_ridge(piece, s, scratch);
+  for (const geometry::PosedPiece& piece : scratch.end.pieces()) meet_on_ridge(piece, body.patch_width, s, scratch);
   meet_small_body(scratch.end, s, footings);
   double sum = 0;
   for (const Press& press : scratch.presses) sum += press.pressure;
