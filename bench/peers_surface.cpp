@@ -49,13 +49,15 @@ Result<SurfaceTask> make_task() {
 void compare_divot(const SurfaceTask& task, std::vector<PeerTime>& times, std::vector<PeerTime>& queries) {
   geometry::Bvh bvh;
   const std::size_t faces = task.triangles.size() / 3;
-  bvh.build(task.triangles, task.before, 0.05f, Jobs(1));
+  const auto corners = geometry::corners_in(task.triangles);
+  bvh.build(static_cast<std::uint32_t>(faces), corners, task.before, 0.05f, geometry::Bvh::Order::as_numbered, Jobs(1));
   bool there = false;
   const double partial = cpu_ns([&] {
     there = !there;
     const auto& positions = there ? task.after : task.before;
-    for (const std::uint32_t face : task.dirty) bvh.touch(face, positions);
-    bvh.refit(positions);
+    for (const std::uint32_t face : task.dirty)
+      for (const std::uint32_t v : corners(face)) bvh.touch(face, positions[v]);
+    bvh.refit(corners, positions);
   });
   times.push_back({"refit", "divot", partial / static_cast<double>(faces), faces, "triangles, of which 1 % moved", {}});
   std::vector<std::uint32_t> found;

@@ -372,7 +372,8 @@ TEST(ContactNear, WalkFindsWhatTheBvhFinds) {
                             return 0.5 * std::sin(1.3 * x) * std::cos(1.1 * y) + 0.1 * std::sin(5 * x + 3 * y);
                           }});
   geometry::Bvh bvh;
-  bvh.build(surface.mesh.triangles(), surface.position, 0.02f, Jobs(1));
+  bvh.build(surface.mesh.face_count(), geometry::corners_in(surface.mesh.triangles()), surface.position, 0.02f,
+            geometry::Bvh::Order::as_numbered, Jobs(1));
   const state::Soil soil;
   const state::Particles particles;
   const std::vector<laws::Medium> media = {laws::make_medium(Material{})};
@@ -411,7 +412,8 @@ TEST(ContactNear, WalkFindsWhatTheBvhFinds) {
 TEST(ContactNear, WhatWasFoundServesUntilItCannot) {
   const state::Surface surface = test::make_surface({.columns = 41, .rows = 41, .spacing = 0.25});
   geometry::Bvh bvh;
-  bvh.build(surface.mesh.triangles(), surface.position, 0.02f, Jobs(1));
+  bvh.build(surface.mesh.face_count(), geometry::corners_in(surface.mesh.triangles()), surface.position, 0.02f,
+            geometry::Bvh::Order::as_numbered, Jobs(1));
   const state::Soil soil;
   const state::Particles particles;
   const std::vector<laws::Medium> media = {laws::make_medium(Material{})};

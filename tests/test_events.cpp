@@ -13,7 +13,8 @@ namespace {
 
 struct Site {
   explicit Site(const GridTerrain& grid) : surface(test::make_surface(grid)) {
-    bvh.build(surface.mesh.triangles(), surface.position, 0, Jobs(1));
+    bvh.build(surface.mesh.face_count(), geometry::corners_in(surface.mesh.triangles()), surface.position, 0,
+              geometry::Bvh::Order::as_numbered, Jobs(1));
   }
   state::Blast detonate(const Bomb& bomb, Blast model = Blast::scaled) {
     return events::detonate(bomb, model, {2, 1.0 / 60, 9.81}, surface, soil, bvh, media, scratch);

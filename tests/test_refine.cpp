@@ -212,7 +212,8 @@ TEST(Refine, WhatIsAwakeOrOfAnotherSoilStays) {
 TEST(Refine, FacesAreFoundBelowThoseTheyCameFrom) {
   Worked w;
   geometry::Bvh bvh;
-  bvh.build(w.s.surface.mesh.triangles(), w.s.surface.position, 0.01f, Jobs(1));
+  bvh.build(w.s.surface.mesh.face_count(), geometry::corners_in(w.s.surface.mesh.triangles()), w.s.surface.position,
+            0.01f, geometry::Bvh::Order::as_numbered, Jobs(1));
   w.halve(500);
   for (std::uint32_t v = 132; v < w.s.surface.position.size(); ++v) {
     Vec3& p = w.s.surface.position[v];

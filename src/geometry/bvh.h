@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -17,35 +18,43 @@ namespace divot::geometry {
 /// their faces by a margin, so that most moves change nothing; the few that do are refitted alone, and degradation()
 /// says when a new build pays. One thread at a time may call what is not const. The first build gives back what it
 /// needed to build; from the second on vectors keep their capacity and nothing allocates.
+///
+/// Eight faces make a leaf, eight leaves a node, eight nodes the next: which is below which follows from the order of
+/// the faces alone, and the tree is its boxes, eight side by side, 7 bytes a vertex.
 class Bvh {
  public:
-  /// Faces in a leaf, the last leaf excepted. Measured on 10^6 faces with balls half an edge in radius: 2, 4 and 8
-  /// answer 0.52, 0.60 and 0.75 million queries a second with 14, 21 and 30 faces each, which the caller then has to
-  /// look at; 8 takes half the memory of 4.
+  /// Faces in a leaf, the last leaf excepted.
   static constexpr std::uint32_t kLeafFaces = 8;
 
-  /// Makes the tree anew from `triangles` ([3 * face] vertex ids, copied) at `positions` ([vertex] m, finite) with
-  /// boxes larger by `margin` (m, >= 0). The same tree for any number of threads. [O(faces log faces)]
-  void build(std::span<const std::uint32_t> triangles, std::span<const Vec3> positions, float margin, const Jobs& jobs);
+  /// Vertex ids of a face's corners.
+  using Corners = std::function<std::array<std::uint32_t, 3>(std::uint32_t face)>;
+  /// Which faces make a leaf: those whose ids follow each other, for surfaces numbered so that these are near each
+  /// other, or those that lie together, which takes 16 bytes a vertex more.
+  enum class Order : std::uint8_t { as_numbered, by_place };
 
-  std::size_t face_count() const { return faces_.size(); }
+  /// Makes the tree anew for faces [0, face_count) at `positions` ([vertex] m, finite) with boxes larger by `margin`
+  /// (m, >= 0). The same tree for any number of threads. [O(faces), by place O(faces log faces)]
+  void build(std::uint32_t face_count, const Corners& corners, std::span<const Vec3> positions, float margin,
+             Order order, const Jobs& jobs);
 
-  /// To be called for each face with a vertex that moved. True when it has left the box of its leaf, which is then
-  /// refitted by the next refit(); until then queries may miss it. [O(1)]
-  bool touch(std::uint32_t face, std::span<const Vec3> positions);
+  std::size_t face_count() const { return face_count_; }
+
+  /// To be called for each face with a corner that moved, which is now at `corner`. True when it has left the box of
+  /// its leaf, which is then refitted by the next refit(); until then queries may miss it. [O(1)]
+  bool touch(std::uint32_t face, const Vec3& corner);
 
   /// Recomputes, margin included, the leaves that touch() has found and as much above them as changes. Returns the
-  /// number of nodes whose box changed. [O(touched leaves * log faces)]
-  std::size_t refit(std::span<const Vec3> positions);
+  /// number of boxes that changed. [O(touched leaves * log faces)]
+  std::size_t refit(const Corners& corners, std::span<const Vec3> positions);
 
   /// Recomputes every box. [O(faces)]
-  void refit_all(std::span<const Vec3> positions);
+  void refit_all(const Corners& corners, std::span<const Vec3> positions, const Jobs& jobs);
 
   /// Sum of the surface areas of all boxes, relative to what it was after build(): 1 then, larger when queries have
   /// become slower.
   float degradation() const;
 
-  /// The boxes of the nodes at a level, the root's being 0: none below the deepest. [O(nodes)]
+  /// The boxes of the nodes at a level, that of the whole being 0: none below the leaves. [O(boxes found)]
   std::vector<math::Aabb> boxes(int level) const;
 
   /// Appends the faces whose leaf's box overlaps `box`: all that truly do and some nearby. What is appended is in
@@ -55,48 +64,69 @@ class Bvh {
   void query_sphere(const Vec3& center, float radius, std::vector<std::uint32_t>& faces) const;
 
  private:
-  // Nodes lie in depth-first order: the first child follows its parent, and `skip` is the first node that is not below
-  // this one, which makes a query one loop without a stack.
-  struct Node {
-    math::Aabb box;
-    std::uint32_t skip = 0;
-    std::uint32_t leaf = kNone;  // index of the leaf, kNone for an inner node
+  static constexpr std::uint32_t kWide = 8;
+  static constexpr std::uint32_t kMostLevels = 11;
+  // The boxes of eight leaves or nodes, by axis: those beyond the last are empty.
+  struct alignas(64) Eight {
+    std::array<std::array<float, kWide>, 3> low, high;
+    Eight();
+    math::Aabb box(std::uint32_t k) const;
+    void set(std::uint32_t k, const math::Aabb& box);
+    math::Aabb all() const;
   };
-  // A face while the tree is built.
+  // Boxes of one depth, the leaves' first: box i is in blocks_[first + i / 8] and lies round block i of the level
+  // before, or round leaf i.
+  struct Level {
+    std::uint32_t first = 0, count = 0;
+  };
+  // A face while the tree is built by place.
   struct Item {
     std::array<float, 3> centre;
     std::uint32_t face;
   };
-  // A node while the tree is built, and the leaves below it.
+  // Leaves while the tree is built by place.
   struct Part {
-    std::uint32_t node = 0, first_leaf = 0, leaf_count = 0;
+    std::uint32_t first_leaf = 0, leaf_count = 0;
   };
 
-  std::uint32_t leaf_count() const { return static_cast<std::uint32_t>(leaf_node_.size()); }
-  std::span<const std::uint32_t> leaf_corners(std::uint32_t leaf) const;
+  std::uint32_t leaf_of(std::uint32_t face) const { return leaf_of_.empty() ? face / kLeafFaces : leaf_of_[face]; }
+  std::uint32_t face_at(std::size_t slot) const {
+    return faces_.empty() ? static_cast<std::uint32_t>(slot) : faces_[slot];
+  }
   std::size_t leaf_end(std::uint32_t leaf) const;
+  math::Aabb box_of(std::uint32_t level, std::uint32_t index) const;
+  math::Aabb fresh_box(std::uint32_t level, std::uint32_t index, const Corners& corners,
+                       std::span<const Vec3> positions) const;
+  bool mark(std::uint32_t level, std::uint32_t index);
+  void lay_out_levels();
+  void order_by_place(const Corners& corners, std::span<const Vec3> positions, const Jobs& jobs);
   std::array<Part, 2> split(const Part& part);
   void split_all(const Part& part);
-  void fill_leaves(std::span<const std::uint32_t> triangles, std::size_t begin, std::size_t end);
-  math::Aabb fresh_box(std::uint32_t node, std::span<const Vec3> positions) const;
-  bool update(std::uint32_t node, std::span<const Vec3> positions);
-  std::size_t refit_by_heap(std::span<const Vec3> positions);
-  std::size_t refit_by_scan(std::span<const Vec3> positions);
+  void fill_leaves(std::size_t begin, std::size_t end);
   template <class Hit>
   void collect(const Hit& hit, std::vector<std::uint32_t>& faces) const;
 
-  std::vector<Node> nodes_;               // [node] depth-first
-  std::vector<std::uint32_t> parent_;     // [node] kNone for the root
-  std::vector<std::uint32_t> leaf_node_;  // [leaf] its node
-  std::vector<std::uint32_t> faces_;      // [slot] face; leaf i has the slots from i * kLeafFaces
-  std::vector<std::uint32_t> corners_;    // [3 * slot] vertices of that face
-  std::vector<std::uint32_t> leaf_of_;    // [face] its leaf
-  std::vector<std::uint8_t> dirty_;       // [node] 1: to be recomputed
-  std::vector<std::uint32_t> heap_;       // dirty nodes; those that touch() found, and while refitting a heap
-  std::vector<Item> items_;               // scratch of build
+  std::size_t face_count_ = 0;
+  std::array<Level, kMostLevels> level_{};
+  std::uint32_t levels_ = 0;
+  std::vector<Eight> blocks_;           // level by level
+  std::vector<std::uint8_t> dirty_;     // [block] a bit for each box that is to be recomputed
+  std::vector<std::uint32_t> faces_;    // [slot] face; leaf i has the slots from i * kLeafFaces. Empty as numbered
+  std::vector<std::uint32_t> leaf_of_;  // [face] its leaf. Empty as numbered
+  std::vector<std::uint32_t> touched_;  // leaves whose bit is set, in the order of touch()
+  std::vector<std::uint32_t> upwards_;  // scratch of refit
+  std::vector<Item> items_;             // scratch of build
   std::vector<Part> parts_, child_parts_;
   float margin_ = 0;
   double area_ = 0, built_area_ = 0;  // sums of half areas, m^2
 };
+
+/// The corners in an index buffer ([3 * face] vertex ids), which has to stay where it is.
+inline Bvh::Corners corners_in(std::span<const std::uint32_t> triangles) {
+  return [corner = triangles.data()](std::uint32_t face) {
+    const std::size_t k = 3 * std::size_t{face};
+    return std::array{corner[k], corner[k + 1], corner[k + 2]};
+  };
+}
 
 }  // namespace divot::geometry

@@ -12,17 +12,27 @@ constexpr std::size_t kGrain = 1 << 13;  // faces or leaves a thread takes at a 
 
 }  // namespace
 
-// Halves a part at the median of its longer side. Shape and place of all nodes follow from the number of leaves alone,
-// so parts can be split in any order.
-std::array<Bvh::Part, 2> Bvh::split(const Part& part) {
-  if (part.leaf_count == 0) return {};
-  Node& node = nodes_[part.node];
-  node.skip = part.node + 2 * part.leaf_count - 1;
-  node.leaf = part.leaf_count == 1 ? part.first_leaf : kNone;
-  if (part.leaf_count == 1) {
-    leaf_node_[part.first_leaf] = part.node;
-    return {};
+void Bvh::lay_out_levels() {
+  std::size_t blocks = 0;
+  levels_ = 0;
+  for (std::size_t count = (face_count_ + kLeafFaces - 1) / kLeafFaces; count > 0;
+       count = count > kWide ? (count + kWide - 1) / kWide : 0) {
+    level_[levels_++] = {static_cast<std::uint32_t>(blocks), static_cast<std::uint32_t>(count)};
+    blocks += (count + kWide - 1) / kWide;
   }
+  blocks_.assign(blocks, {});
+  dirty_.assign(blocks, 0);
+  touched_.clear(), touched_.reserve(level_[0].count);
+  upwards_.clear(), upwards_.reserve(level_[0].count / kWide + 1);
+}
+
+// Halves a part at the median of its longer side, where eights of eights begin. Which leaves are in which part follows
+// from their number alone, so parts can be split in any order.
+std::array<Bvh::Part, 2> Bvh::split(const Part& part) {
+  if (part.leaf_count <= 1) return {};
+  std::uint32_t unit = 1;
+  while (part.leaf_count > unit * kWide) unit *= kWide;
+  const std::uint32_t half = (part.leaf_count + unit - 1) / unit / 2 * unit;
 
   const auto begin = items_.begin() + std::size_t{part.first_leaf} * kLeafFaces;
   const auto end = items_.begin() + leaf_end(part.first_leaf + part.leaf_count - 1);
@@ -30,15 +40,10 @@ std::array<Bvh::Part, 2> Bvh::split(const Part& part) {
   for (auto item = begin; item != end; ++item) bounds.include(Vec3{item->centre[0], item->centre[1], item->centre[2]});
   const Vec3 size = bounds.high - bounds.low;
   const std::size_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-
-  const std::uint32_t half = part.leaf_count / 2;
   std::nth_element(begin, begin + std::size_t{half} * kLeafFaces, end, [axis](const Item& a, const Item& b) {
     return a.centre[axis] < b.centre[axis] || (a.centre[axis] == b.centre[axis] && a.face < b.face);
   });
-  const Part first{part.node + 1, part.first_leaf, half};
-  const Part second{part.node + 2 * half, part.first_leaf + half, part.leaf_count - half};
-  parent_[first.node] = parent_[second.node] = part.node;
-  return {first, second};
+  return {Part{part.first_leaf, half}, Part{part.first_leaf + half, part.leaf_count - half}};
 }
 
 void Bvh::split_all(const Part& part) {
@@ -46,48 +51,37 @@ void Bvh::split_all(const Part& part) {
     if (child.leaf_count > 0) split_all(child);
 }
 
-// Writes the faces of leaves [begin, end) in ascending order, with their corners.
-void Bvh::fill_leaves(std::span<const std::uint32_t> triangles, std::size_t begin, std::size_t end) {
+// Writes the faces of leaves [begin, end) in ascending order.
+void Bvh::fill_leaves(std::size_t begin, std::size_t end) {
   for (std::size_t leaf = begin; leaf < end; ++leaf) {
     const std::size_t first = leaf * kLeafFaces, last = leaf_end(static_cast<std::uint32_t>(leaf));
     for (std::size_t slot = first; slot < last; ++slot) faces_[slot] = items_[slot].face;
     std::sort(faces_.begin() + first, faces_.begin() + last);
-    for (std::size_t slot = first; slot < last; ++slot) {
-      const std::size_t face = faces_[slot];
-      leaf_of_[face] = static_cast<std::uint32_t>(leaf);
-      for (std::size_t k = 0; k < 3; ++k) corners_[3 * slot + k] = triangles[3 * face + k];
-    }
+    for (std::size_t slot = first; slot < last; ++slot) leaf_of_[faces_[slot]] = static_cast<std::uint32_t>(leaf);
   }
 }
 
-void Bvh::build(std::span<const std::uint32_t> triangles, std::span<const Vec3> positions, float margin,
-                const Jobs& jobs) {
-  DIVOT_ASSERT(triangles.size() % 3 == 0 && triangles.size() < kNone && margin >= 0);
-  const std::size_t count = triangles.size() / 3, leaves = (count + kLeafFaces - 1) / kLeafFaces;
-  const bool is_first = nodes_.empty();
-  margin_ = margin;
-  items_.resize(count), faces_.resize(count), leaf_of_.resize(count), corners_.resize(3 * count);
-  leaf_node_.resize(leaves);
-  nodes_.resize(leaves == 0 ? 0 : 2 * leaves - 1);
-  parent_.assign(nodes_.size(), kNone);
-  dirty_.assign(nodes_.size(), 0);
-  heap_.clear(), heap_.reserve(nodes_.size());
+void Bvh::order_by_place(const Corners& corners, std::span<const Vec3> positions, const Jobs& jobs) {
+  const std::size_t leaves = level_[0].count;
+  const bool is_first = faces_.empty();
+  items_.resize(face_count_), faces_.resize(face_count_), leaf_of_.resize(face_count_);
 
   // Three times the centre of each face serves as well as the centre.
   const auto fill_items = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t face = begin; face < end; ++face) {
-      const std::uint32_t* corner = &triangles[3 * face];
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto face = static_cast<std::uint32_t>(i);
+      const auto corner = corners(face);
       const Vec3 centre = positions[corner[0]] + positions[corner[1]] + positions[corner[2]];
-      items_[face] = {{centre.x, centre.y, centre.z}, static_cast<std::uint32_t>(face)};
+      items_[i] = {{centre.x, centre.y, centre.z}, face};
     }
   };
   // By reference: a copy in std::function would be an allocation.
-  jobs.for_ranges(count, kGrain, std::ref(fill_items));
+  jobs.for_ranges(face_count_, kGrain, std::ref(fill_items));
 
   // Level by level until there are enough parts for all threads, then each part by itself.
-  parts_.assign(1, Part{0, 0, static_cast<std::uint32_t>(leaves)});
+  parts_.assign(1, Part{0, static_cast<std::uint32_t>(leaves)});
   while (parts_.size() < kParts) {
-    child_parts_.resize(2 * parts_.size());
+    child_parts_.assign(2 * parts_.size(), {});
     jobs.for_ranges(parts_.size(), 1, [this](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const auto children = split(parts_[i]);
@@ -99,11 +93,23 @@ void Bvh::build(std::span<const std::uint32_t> triangles, std::span<const Vec3> 
   jobs.for_ranges(parts_.size(), 1, [this](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) split_all(parts_[i]);
   });
-
-  const auto fill = [&](std::size_t begin, std::size_t end) { fill_leaves(triangles, begin, end); };
+  const auto fill = [&](std::size_t begin, std::size_t end) { fill_leaves(begin, end); };
   jobs.for_ranges(leaves, kGrain, std::ref(fill));
   if (is_first) std::vector<Item>().swap(items_);  // an empty list would keep its memory
-  refit_all(positions);
+}
+
+void Bvh::build(std::uint32_t face_count, const Corners& corners, std::span<const Vec3> positions, float margin,
+                Order order, const Jobs& jobs) {
+  DIVOT_ASSERT(margin >= 0);
+  margin_ = margin;
+  face_count_ = face_count;
+  level_ = {};
+  lay_out_levels();
+  if (order == Order::by_place)
+    order_by_place(corners, positions, jobs);
+  else
+    faces_.clear(), leaf_of_.clear();
+  refit_all(corners, positions, jobs);
   built_area_ = area_;
 }
 

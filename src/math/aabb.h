@@ -16,7 +16,10 @@ struct Aabb {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  void include(const Aabb& b) { include(b.low), include(b.high); }
+  void include(const Aabb& b) {
+    low = {std::min(low.x, b.low.x), std::min(low.y, b.low.y), std::min(low.z, b.low.z)};
+    high = {std::max(high.x, b.high.x), std::max(high.y, b.high.y), std::max(high.z, b.high.z)};
+  }
   void grow(float margin) {
     low -= Vec3{margin, margin, margin};
     high += Vec3{margin, margin, margin};

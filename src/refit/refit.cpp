@@ -21,28 +21,30 @@ void forget_moved(Tree& tree) {
   tree.drift = 0;
 }
 
+// Corners of the faces that the terrain started with.
+geometry::Bvh::Corners corners_of(const state::Surface& surface) {
+  if (!surface.bisection.any()) return geometry::corners_in(surface.mesh.triangles());
+  return [&surface](std::uint32_t face) { return surface.bisection.base_corners(surface.mesh, face); };
+}
+
 void refit_moved(Tree& tree, const state::Surface& surface) {
   const geometry::Bisection& bisection = surface.bisection;
   for (const std::uint32_t vertex : tree.moved) {
     if (bisection.any() && vertex >= bisection.base_vertex_count()) continue;  // no corner of a face in the tree
     surface.mesh.for_each_face(vertex, [&](std::uint32_t face) {
-      tree.bvh.touch(bisection.any() ? bisection.base_of(face) : face, surface.position);
+      tree.bvh.touch(bisection.any() ? bisection.base_of(face) : face, surface.position[vertex]);
     });
   }
-  tree.refits += tree.bvh.refit(surface.position) > 0;
+  tree.refits += tree.bvh.refit(corners_of(surface), surface.position) > 0;
 }
 
 }  // namespace
 
 void build(Tree& tree, const state::Surface& surface, const Jobs& jobs) {
-  if (surface.bisection.any()) {
-    tree.base.clear();
-    for (std::uint32_t face = 0; face < surface.bisection.base_face_count(); ++face)
-      for (const std::uint32_t v : surface.bisection.base_corners(surface.mesh, face)) tree.base.push_back(v);
-    tree.bvh.build(tree.base, surface.position, tree.margin, jobs);
-  } else {
-    tree.bvh.build(surface.mesh.triangles(), surface.position, tree.margin, jobs);
-  }
+  const std::uint32_t faces = surface.bisection.any() ? surface.bisection.base_face_count() : surface.mesh.face_count();
+  // A raster's faces are numbered tile by tile.
+  const auto order = surface.raster ? geometry::Bvh::Order::as_numbered : geometry::Bvh::Order::by_place;
+  tree.bvh.build(faces, corners_of(surface), surface.position, tree.margin, order, jobs);
   forget_moved(tree);
   ++tree.rebuilds;
 }

@@ -23,7 +23,6 @@ struct Tree {
   float margin = 0;                     ///< m by which leaf boxes are larger than their faces
   std::vector<std::uint32_t> moved;     ///< vertices that moved since, each once
   std::vector<std::uint64_t> is_moved;  ///< [vertex / 64] bits: in `moved`
-  std::vector<std::uint32_t> base;      ///< scratch: corners of the faces that the terrain started with
   float drift = 0;                      ///< m, at least as far as any of them moved
   std::uint64_t steps = 0, refits = 0, rebuilds = 0;
 };

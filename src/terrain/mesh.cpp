@@ -108,7 +108,8 @@ std::optional<std::uint32_t> face_at(const Surface& surface, const geometry::Bvh
 // Bodies and soil know one height at each place.
 Result<void> check_layers(const Surface& surface) {
   geometry::Bvh bvh;
-  bvh.build(surface.mesh.triangles(), surface.position, 0, Jobs(1));
+  bvh.build(surface.mesh.face_count(), geometry::corners_in(surface.mesh.triangles()), surface.position, 0,
+            geometry::Bvh::Order::by_place, Jobs(1));
   std::vector<std::uint32_t> found;
   for (std::uint32_t face = 0; face < surface.mesh.face_count(); ++face) {
     const auto [id, at] = corners_of(surface, face);
