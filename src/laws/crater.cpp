@@ -8,21 +8,24 @@
 namespace divot::laws {
 namespace {
 
-// How much further than a burst at the surface a fully buried one breaks the ground: the radius of the broken sphere
-// over the surface crater's. Deeper than this nothing shows (a camouflet): at 1.3 m/kg^(1/3) in generic soil. A burst
-// at the surface thus couples 1/3.2^3, a thirtieth, of its energy into the ground. One value, fitted to the radii of
-// Stagecoach and Scooter in alluvium and of Buckboard and Pre-Schooner in basalt together.
-constexpr double kBrokenSphere = 3.2;
-// How coupling grows with depth: the vent closes as the square of what is left of the cover.
-constexpr double kVent = 2;
+// Radius of the ground that a fully buried charge breaks, over (kg TNT)^(1/3), where a charge at the surface makes a
+// crater of kBrokenAt: venting costs that one 97 % of its energy. Deeper than this nothing shows (a camouflet). What a
+// deep charge has to do is lift, which is much the same in every ground; what one at the surface has to do is break,
+// which is not: the broken radius goes with the root of the surface crater's. Fitted to Stagecoach and Scooter in
+// alluvium, Buckboard and Pre-Schooner in basalt and ConWep's soil together.
+constexpr double kBrokenSphere = 1.36, kBrokenAt = 0.4;
+// How coupling grows with depth: the vent closes with about the square of what is left of the cover.
+constexpr double kVent = 2.2;
 // Blast strength per pressure of soil lifted: the strength is in units of eq. 13's pressure, not of what soil carries.
 // Fitted to Scooter against Stagecoach: 500 and 20 tons at nearly one scaled depth.
 constexpr double kOverburden = 8e-4;
 // What a surface crater lifts lies a sixth of its radius deep (the centroid of a paraboloid half as deep as wide); a
 // buried charge lifts its cover as well.
 constexpr double kLifted = 1.0 / 6;
-// Buried craters are deeper for their width, until soil falls back: from four tenths of the broken sphere on.
-constexpr double kDeeper = 0.5, kFallback = 0.4;
+// What a buried charge throws leaves the ground at kThrow (W^(1/3) / depth)^2, m/s for kg and m, and falls back where
+// that does not carry it past its cover: v^2 / (g depth). So a large charge's crater is filled at a scaled depth from
+// which a small one's is still thrown clear. Fitted to Stagecoach I and ConWep, 18 t and 221 kg at 0.9 m/kg^(1/3).
+constexpr double kThrow = 9.25, kFallsBack = 1.5;
 // A burst in the air: radius and depth end at these heights in crater radii, 0.6 and 0.5 m/kg^(1/3) in generic soil,
 // with these exponents. An engineering guess: there is next to no data.
 constexpr double kRadiusEnds = 1.5, kRadiusExponent = 0.8, kDepthEnds = 1.25, kDepthExponent = 1.5;
@@ -71,11 +74,13 @@ CraterSize scaled_crater(double yield, double height, const Medium& soil, double
     return {surface * std::pow(1 - h / kRadiusEnds, kRadiusExponent),
             surface * shape * std::pow(1 - h / kDepthEnds, kDepthExponent), std::min(lip, 1.0)};
   }
-  const double whole = kBrokenSphere * surface, s = buried / whole;
+  const double size = std::cbrt(1000 * yield), light = surface_radius(yield, soil.blast_strength);
+  const double whole = kBrokenSphere * std::sqrt(size * light / kBrokenAt) * (surface / light), s = buried / whole;
   if (s >= 1) return {};
-  const double broken = whole * (1 - (1 - 1 / kBrokenSphere) * std::pow(1 - s, kVent));
+  const double broken = whole - (whole - surface) * std::pow(1 - s, kVent);
   const double radius = std::sqrt(broken * broken - buried * buried);
-  const double depth = shape * radius * (1 + kDeeper * s) * (1 - smooth((s - kFallback) / (1 - kFallback)));
+  const double scaled = buried / size, slow = gravity * buried * std::pow(scaled, 4) / (kThrow * kThrow);
+  const double depth = shape * radius / (1 + std::pow(slow, kFallsBack));
   const double deep = smooth((s - kShallow) / (kDeep - kShallow));
   const double lip = soil.ejecta_share + std::max(0.0, kDeepLip - soil.ejecta_share) * deep;
   return {radius, depth, lip};
