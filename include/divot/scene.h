@@ -73,7 +73,8 @@ enum class UpAxis : std::uint8_t { z, y };
 struct MeshTerrain {
   std::vector<Vec3d> vertices = {};  ///< m, in the terrain's coordinates; vertices without a triangle are no ground
   /// [3 * triangle] indices of vertices, counter-clockwise from above. Neighbours share vertices: equal positions are
-  /// not joined. One height at each place: no vertical faces, no overhangs, no second layer.
+  /// not joined. What faces up is ground; what stands upright (within 6 degrees) or faces down is rigid. Ground above
+  /// ground needs an underside: bridges, caves and closed blocks are fine, loose sheets above each other are not.
   std::vector<std::uint32_t> triangles = {};
   /// [vertex] index into Scene::materials; empty: TerrainSource::material everywhere.
   std::vector<std::uint8_t> materials = {};

@@ -20,6 +20,7 @@ struct SurfaceView {
       triangles;  ///< [3 * face] vertex ids, counter-clockwise from above: ready as an index buffer
   std::span<const std::uint8_t> materials;  ///< [vertex] index into World::materials()
   double spacing = 0;                       ///< m, mean grid spacing; where refined, of the finest triangles
+  std::size_t rigid = 0;  ///< triangles, the first, that do not face up: bodies bump into them, nothing deforms them
 };
 
 /// What may move a particle.

@@ -58,6 +58,13 @@ bool shadow_is_whole(const state::Surface& surface, const std::vector<std::uint3
   return std::none_of(found.begin(), found.end(), [&](std::uint32_t v) { return surface.mesh.is_boundary(v); });
 }
 
+// Ground over the body that it is not in: that on a bridge, seen from below.
+bool is_behind_rigid(const state::Body& body, const Situation& s, std::uint32_t v, state::RegionScratch& region) {
+  const Vec3 p = s.surface.position[v];
+  const float z = static_cast<float>(body.position.z);
+  return p.z > z && state::rigid_between(s.surface, p.x, p.y, z, p.z, region);
+}
+
 }  // namespace
 
 double step_reach(const state::Body& body, const Situation& s) {
@@ -95,7 +102,8 @@ void find_near(state::Body& body, const Situation& s, Scratch::PerBody& scratch)
   }
   body.near.clear();
   for (const std::uint32_t v : scratch.found)
-    if (scratch.start.within_reach(s.surface.position[v], reach)) body.near.push_back(v);
+    if (scratch.start.within_reach(s.surface.position[v], reach) && !is_behind_rigid(body, s, v, scratch.region))
+      body.near.push_back(v);
   body.near_left = reach;
 }
 

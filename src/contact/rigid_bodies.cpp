@@ -74,6 +74,10 @@ struct RigidBodies::Bullet {
     return shapes.emplace_back(std::move(compound)).get();
   }
   std::vector<std::unique_ptr<btRigidBody>> bodies;
+  std::vector<btVector3> corners;  // of rigid faces
+  std::vector<int> indices;
+  std::unique_ptr<btTriangleIndexVertexArray> faces;
+  std::unique_ptr<btRigidBody> ground;
 
   Bullet() {
     world.setGravity({0, 0, 0});
@@ -85,6 +89,7 @@ struct RigidBodies::Bullet {
   }
   ~Bullet() {
     for (auto& body : bodies) world.removeRigidBody(body.get());
+    if (ground) world.removeRigidBody(ground.get());
   }
 
   // Bodies are where they are outside: nothing of their motion is kept here.
@@ -101,6 +106,30 @@ RigidBodies::RigidBodies() : bullet_(std::make_unique<Bullet>()) {}
 RigidBodies::~RigidBodies() = default;
 RigidBodies::RigidBodies(RigidBodies&&) noexcept = default;
 RigidBodies& RigidBodies::operator=(RigidBodies&&) noexcept = default;
+
+void RigidBodies::add(const state::RigidFaces& faces, std::span<const Vec3> positions, const laws::Medium& medium) {
+  Bullet& b = *bullet_;
+  b.indices.assign(faces.triangles.begin(), faces.triangles.end());
+  for (const Vec3& p : positions) b.corners.push_back(to_bullet(to_double(p)));
+  b.faces = std::make_unique<btTriangleIndexVertexArray>(
+      static_cast<int>(b.indices.size() / 3), b.indices.data(), static_cast<int>(3 * sizeof(int)),
+      static_cast<int>(b.corners.size()), b.corners.data()->m_floats, static_cast<int>(sizeof(btVector3)));
+  auto shape = std::make_unique<btBvhTriangleMeshShape>(b.faces.get(), true);
+  shape->setMargin(0);
+  btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shape.get());
+  info.m_restitution = medium.restitution;
+  info.m_friction = medium.tan_friction;
+  b.shapes.push_back(std::move(shape));
+  b.ground = std::make_unique<btRigidBody>(info);
+  b.ground->setUserIndex(Touches::kGround);
+  b.world.addRigidBody(b.ground.get());
+  std::vector<btVector3> normals;
+  for (std::size_t k = 0; k < b.indices.size(); k += 3) {
+    const auto corner = [&](std::size_t c) { return b.corners[static_cast<std::size_t>(b.indices[k + c])]; };
+    normals.push_back((corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized());
+  }
+  b.touches.add_ground(*b.ground, std::move(normals));
+}
 
 void RigidBodies::add(const state::Body& body) {
   btRigidBody::btRigidBodyConstructionInfo info(body.mass, nullptr, bullet_->add_shape(*body.solid),

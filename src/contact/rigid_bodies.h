@@ -8,8 +8,10 @@
 
 #include "contact/joint_rows.h"
 #include "contact/resistance.h"
+#include "laws/medium.h"
 #include "state/bodies.h"
 #include "state/joints.h"
+#include "state/surface.h"
 
 namespace divot::contact {
 
@@ -21,6 +23,10 @@ class RigidBodies {
   ~RigidBodies();
   RigidBodies(RigidBodies&&) noexcept;
   RigidBodies& operator=(RigidBodies&&) noexcept;
+
+  /// Faces of the ground that stand still, with the friction of `medium`. Bodies meet them from the side that they face
+  /// and only along directions that are not up: what bears from below is soil.
+  void add(const state::RigidFaces& faces, std::span<const Vec3> positions, const laws::Medium& medium);
 
   /// A body is known here by its place in the span that advance() gets.
   void add(const state::Body& body);

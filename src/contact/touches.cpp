@@ -18,15 +18,14 @@ void archive_point(Archive& a, Point& p) {
     p.m_contactMotion2, p.m_contactCFM, p.m_contactERP, p.m_frictionCFM, p.m_lifeTime);
 }
 
-// Of a manifold in which there is a point.
+// Of a manifold in which there is a point. All triangles of the ground are one part.
 std::array<int, 6> key_of(const btPersistentManifold& manifold) {
   const btManifoldPoint& point = manifold.getContactPoint(0);
-  return {manifold.getBody0()->getUserIndex(),
-          manifold.getBody1()->getUserIndex(),
-          point.m_partId0,
-          point.m_index0,
-          point.m_partId1,
-          point.m_index1};
+  const int first = manifold.getBody0()->getUserIndex(), second = manifold.getBody1()->getUserIndex();
+  std::array<int, 6> key{first, second, point.m_partId0, point.m_index0, point.m_partId1, point.m_index1};
+  if (first == Touches::kGround) key[2] = key[3] = 0;
+  if (second == Touches::kGround) key[4] = key[5] = 0;
+  return key;
 }
 
 // The points of the step before, with those of this step in their place where they are the same, as far as they still
@@ -61,10 +60,30 @@ void Touches::clear(btDispatcher& dispatcher) {
   for (int k = 0; k < dispatcher.getNumManifolds(); ++k) dispatcher.getManifoldByIndexInternal(k)->clearManifold();
 }
 
+const btRigidBody* Touches::body(int index) const {
+  return index == kGround ? ground_ : bodies_[static_cast<std::size_t>(index)];
+}
+
+// Is the ground's triangle met from the side it faces? Its edges are met from all sides, but up is not for it to push,
+// and a body that has sunk beside the top of a wall is behind it.
+bool Touches::is_faced(const btPersistentManifold& manifold, const btManifoldPoint& point) const {
+  constexpr double kLeast = 0.5, kUp = 0.2;
+  const bool first = manifold.getBody0() == ground_;
+  const btVector3 outward = first ? -point.m_normalWorldOnB : point.m_normalWorldOnB;
+  const int triangle = first ? point.m_index0 : point.m_index1;
+  return outward.dot(normals_[static_cast<std::size_t>(triangle)]) > kLeast && outward.z() < kUp;
+}
+
+void Touches::drop_unfaced(btPersistentManifold& manifold) const {
+  if (ground_ == nullptr || (manifold.getBody0() != ground_ && manifold.getBody1() != ground_)) return;
+  for (int k = manifold.getNumContacts(); k-- > 0;)
+    if (!is_faced(manifold, manifold.getContactPoint(k))) manifold.removeContactPoint(k);
+}
+
 btPersistentManifold& Touches::next_own(const Touch& touch) {
   if (own_used_ == own_.size()) own_.push_back(std::make_unique<btPersistentManifold>());
   btPersistentManifold& own = *own_[own_used_++];
-  own.setBodies(bodies_[static_cast<std::size_t>(touch.key[0])], bodies_[static_cast<std::size_t>(touch.key[1])]);
+  own.setBodies(body(touch.key[0]), body(touch.key[1]));
   own.setContactBreakingThreshold(touch.breaking);
   own.setContactProcessingThreshold(touch.processing);
   own.clearManifold();
@@ -74,6 +93,7 @@ btPersistentManifold& Touches::next_own(const Touch& touch) {
 std::span<btPersistentManifold*> Touches::recall(btPersistentManifold** found, int count) {
   const auto key = [](const btPersistentManifold* manifold) { return key_of(*manifold); };
   found_.assign(found, found + count);
+  for (btPersistentManifold* manifold : found_) drop_unfaced(*manifold);
   std::erase_if(found_, [](const btPersistentManifold* m) { return m->getNumContacts() == 0; });
   std::ranges::sort(found_, {}, key);
   now_.clear(), own_used_ = 0;
@@ -110,7 +130,9 @@ std::string Touches::save() const {
 bool Touches::restore(std::string_view bytes) {
   core::ByteReader reader(bytes);
   reader(touches_);
-  const auto is_body = [&](int index) { return index >= 0 && static_cast<std::size_t>(index) < bodies_.size(); };
+  const auto is_body = [&](int index) {
+    return index == kGround ? ground_ != nullptr : index >= 0 && static_cast<std::size_t>(index) < bodies_.size();
+  };
   const auto is_between_bodies = [&](const Touch& t) { return is_body(t.key[0]) && is_body(t.key[1]); };
   const bool good = reader.ok() && reader.at_end() && std::ranges::is_sorted(touches_, {}, &Touch::key) &&
                     std::ranges::all_of(touches_, is_between_bodies);

@@ -3,10 +3,12 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace divot::contact {
@@ -24,6 +26,14 @@ struct Touch {
 /// pieces; those of the step before that still hold come to them, and all keep their impulses.
 class Touches {
  public:
+  /// User index of the ground's rigid faces.
+  static constexpr int kGround = std::numeric_limits<int>::max();
+
+  /// What stands still, with the outward normal of each of its triangles, 1 long.
+  void add_ground(const btRigidBody& ground, std::vector<btVector3> normals) {
+    ground_ = &ground, normals_ = std::move(normals);
+  }
+
   /// A body that others may touch; its user index counts up from 0.
   void add(const btRigidBody& body) { bodies_.push_back(&body); }
 
@@ -44,8 +54,13 @@ class Touches {
 
  private:
   btPersistentManifold& next_own(const Touch& touch);
+  const btRigidBody* body(int index) const;
+  bool is_faced(const btPersistentManifold& manifold, const btManifoldPoint& point) const;
+  void drop_unfaced(btPersistentManifold& manifold) const;
 
   std::vector<const btRigidBody*> bodies_;
+  const btRigidBody* ground_ = nullptr;
+  std::vector<btVector3> normals_;                          // [triangle of the ground]
   std::vector<Touch> touches_;                              // ascending by key
   std::vector<btPersistentManifold*> found_, now_;          // likewise
   std::vector<std::unique_ptr<btPersistentManifold>> own_;  // for touches that Bullet found no more

@@ -35,7 +35,7 @@ state::Blast detonate(const Bomb& bomb, Blast model, const Moment& moment, state
                      .start = moment.time,
                      .pulse = std::max(laws::pulse(bomb.yield), moment.dt / 8)};
   const Vec3 burst = to_float(bomb.position - surface.origin);
-  const state::SurfacePoint ground = state::surface_at(surface, bvh, burst.x, burst.y, scratch);
+  const state::SurfacePoint ground = state::surface_at(surface, bvh, burst, scratch);
   blast.ground_zero = ground.found ? ground.position : burst;
   blast.active = ground.found;
   if (!ground.found) return blast;  // beside the terrain, or over a hole

@@ -19,7 +19,7 @@ void push_ground(const GroundPush& push, const state::Surface& surface, const ge
   for (const std::uint32_t vertex : vertices) {
     const Vec3& p = surface.position[vertex];
     const float inside = 1 - ((p.x - x) * (p.x - x) + (p.y - y) * (p.y - y)) / (radius * radius);
-    if (inside <= 0) continue;
+    if (inside <= 0 || state::rigid_between(surface, p.x, p.y, static_cast<float>(centre.z), p.z, scratch)) continue;
     const Vec3 velocity = inside * inside *
                           Vec3{static_cast<float>(push.velocity.x), static_cast<float>(push.velocity.y),
                                static_cast<float>(push.velocity.z)};

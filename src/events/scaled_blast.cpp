@@ -79,7 +79,7 @@ void face_slope(Burst& burst, state::Blast& blast, const state::Surface& surface
   const float distance = static_cast<float>(burst.height) * -blast.direction.z;
   const Vec3 charge = blast.ground_zero + Vec3{0, 0, static_cast<float>(burst.height)};
   const Vec3 next = charge + distance * blast.direction;
-  const state::SurfacePoint foot = state::surface_at(surface, bvh, next.x, next.y, scratch);
+  const state::SurfacePoint foot = state::surface_at(surface, bvh, next, scratch);
   if (!foot.found) return;
   blast.ground_zero = foot.position;
   burst.height = distance;

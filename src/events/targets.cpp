@@ -15,10 +15,12 @@ std::vector<Target> targets(const state::Blast& blast, double reach, const state
   state::vertices_near(surface, bvh, box, scratch, vertices);
   std::vector<Target> found;
   for (const std::uint32_t v : vertices) {
-    const Vec3 offset = surface.position[v] - blast.ground_zero;
+    const Vec3 p = surface.position[v], offset = p - blast.ground_zero;
     const double above = -dot(offset, blast.direction);
     const double radius = std::sqrt(std::max(0.0, static_cast<double>(dot(offset, offset)) - above * above));
-    if (radius <= reach) found.push_back({v, radius, above, offset.x, offset.y});
+    // What lies behind a rigid face is shielded.
+    if (radius <= reach && !state::rigid_between(surface, p.x, p.y, blast.ground_zero.z, p.z, scratch))
+      found.push_back({v, radius, above, offset.x, offset.y});
   }
   return found;
 }

@@ -104,8 +104,8 @@ void describe_dem(Visitor& v, DemTerrain& dem) {
 void describe_mesh(Visitor& v, MeshTerrain& mesh) {
   static constexpr const char* kUp[] = {"z", "y"};
   v.text({.name = "mesh",
-          .meaning = "triangle mesh, one height at each place: OBJ, PLY, STL or glTF; a relative path starts at the "
-                     "scene's folder",
+          .meaning = "triangle mesh, closed or open, which may overhang: OBJ, PLY, STL or glTF; a relative path starts "
+                     "at the scene's folder",
           .default_text = "none"},
          mesh.path);
   v.choice({.name = "up", .meaning = "axis of the `mesh` that points up; glTF knows its own"}, kUp, mesh.up);

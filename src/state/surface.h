@@ -9,6 +9,7 @@
 #include "divot/ids.h"
 #include "divot/vec.h"
 #include "geometry/bisection.h"
+#include "geometry/bvh.h"
 #include "geometry/half_edge_mesh.h"
 
 namespace divot::state {
@@ -35,12 +36,25 @@ struct Raster {
   std::string crs;        ///< WKT; empty when unknown
 };
 
+/// What of a mesh's surface does not face up, undersides and upright faces: nothing deforms it, bodies bump into it.
+struct RigidFaces {
+  std::vector<std::uint32_t> triangles;  ///< [3 * face] vertices
+  /// [vertex from first_copy on] the vertex of the mesh at the same place: ground that touches itself in one only has
+  /// one for each part.
+  std::vector<std::uint32_t> copies;
+  std::uint32_t first_copy = 0;
+  geometry::Bvh bvh;  ///< over the faces as they were at the start
+
+  bool any() const { return !triangles.empty(); }
+};
+
 /// The terrain. Written by terrain/ once, then by settle/ where particles moved and by refine/ where triangles come and
 /// go.
 struct Surface {
   Vec3d origin;                        ///< m: position + origin is in the terrain's coordinates
   geometry::HalfEdgeMesh mesh;         ///< vertices without a face are holes (nodata), or went with their triangles
   geometry::Bisection bisection;       ///< triangles that the terrain did not start with; not started: it keeps those
+  RigidFaces rigid;                    ///< where the ground overhangs or stands upright; `mesh` has only what faces up
   std::vector<Vec3> position;          ///< [vertex] m, relative to origin
   std::vector<std::uint8_t> material;  ///< [vertex] index into the world's materials
   std::vector<std::uint32_t> column;   ///< [vertex] its soil column once it was touched, else kNone

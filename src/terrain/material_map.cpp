@@ -156,6 +156,8 @@ Result<void> place_materials(const Scene& scene, std::span<const Material> mater
   if (const auto* mesh = std::get_if<MeshTerrain>(&scene.terrain.shape); mesh != nullptr && !mesh->materials.empty()) {
     for (std::size_t v = 0; v < mesh->materials.size(); ++v)
       surface.material[v] = index_of(materials, scene.materials[mesh->materials[v]].name);
+    for (std::size_t k = 0; k < surface.rigid.copies.size(); ++k)
+      surface.material[surface.rigid.first_copy + k] = surface.material[surface.rigid.copies[k]];
   }
   return {};
 }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "geometry/bvh.h"
+#include "state/region.h"
 
 namespace divot::terrain {
 namespace {
@@ -56,6 +57,67 @@ std::vector<Vec3> local_positions(const MeshTerrain& mesh, const HalfEdgeMesh& c
   return out;
 }
 
+// Steeper than this, the sine of the angle to the upright, a face bears nothing: columns of soil stand upright.
+constexpr double kSteepest = 0.1;
+
+// [face] Does it face up? Fails on a face without an area and where none does.
+Result<std::vector<bool>> faces_up(const MeshTerrain& mesh) {
+  std::vector<bool> up(mesh.triangles.size() / 3);
+  for (std::size_t face = 0; face < up.size(); ++face) {
+    const std::uint32_t* id = &mesh.triangles[3 * face];
+    const Vec3d a = mesh.vertices[id[0]];
+    const Vec3d across = cross(mesh.vertices[id[1]] - a, mesh.vertices[id[2]] - a);
+    if (!(length(across) > 0))
+      return refuse(fmt::format("triangle {} ({}, {}, {}) has no area", face, id[0], id[1], id[2]),
+                    "expected corners that do not lie in a line");
+    up[face] = across.z > kSteepest * length(across);
+  }
+  if (std::find(up.begin(), up.end(), true) == up.end())
+    return refuse("no triangle faces up",
+                  "expected corners counter-clockwise as seen from above, or from outside of what is closed");
+  return up;
+}
+
+// Parts the faces that do not face up from the ground. Where ground would touch itself in one vertex only, each part
+// but one gets a vertex of its own.
+void part_rigid(const HalfEdgeMesh& whole, const std::vector<bool>& up, Surface& surface,
+                std::vector<std::uint32_t>& ground) {
+  std::vector<std::uint32_t> corner(whole.triangles().begin(), whole.triangles().end());
+  surface.rigid.first_copy = whole.vertex_count();
+  std::vector<std::uint32_t> around;
+  for (std::uint32_t v = 0; v < whole.vertex_count(); ++v) {
+    around.clear();
+    whole.for_each_outgoing(v, [&](std::uint32_t h) { around.push_back(h); });
+    const auto is_ground = [&](std::size_t k) { return up[HalfEdgeMesh::face_of(around[k % around.size()])]; };
+    // From a rigid face on, so that no part is met in two pieces; at a border the walk has begun at its end.
+    std::size_t start = 0;
+    if (!around.empty() && !whole.is_boundary(v))
+      while (start + 1 < around.size() && is_ground(start)) ++start;
+    std::uint32_t id = kNone;
+    bool first = true;
+    for (std::size_t k = start; k < start + around.size(); ++k) {
+      if (!is_ground(k)) {
+        id = kNone;
+        continue;
+      }
+      if (id == kNone) {
+        id = v;
+        if (!first) {
+          id = surface.rigid.first_copy + static_cast<std::uint32_t>(surface.rigid.copies.size());
+          surface.rigid.copies.push_back(v);
+        }
+        first = false;
+      }
+      corner[around[k % around.size()]] = id;
+    }
+  }
+  for (std::size_t face = 0; face < up.size(); ++face) {
+    auto& list = up[face] ? ground : surface.rigid.triangles;
+    list.insert(list.end(), corner.begin() + 3 * static_cast<std::ptrdiff_t>(face),
+                corner.begin() + 3 * static_cast<std::ptrdiff_t>(face) + 3);
+  }
+}
+
 struct Corners {
   std::array<std::uint32_t, 3> id;
   std::array<Vec3d, 3> at;
@@ -75,16 +137,11 @@ double area2(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-Result<void> check_facing(const Surface& surface) {
-  for (std::uint32_t face = 0; face < surface.mesh.face_count(); ++face) {
-    const auto [id, at] = corners_of(surface, face);
-    const double seen = area2(at[0], at[1], at[2]);
-    if (seen > 0) continue;
-    return refuse(fmt::format("triangle {} ({}, {}, {}) {}", face, id[0], id[1], id[2],
-                              seen < 0 ? "faces down" : "stands upright or has no area"),
-                  "expected triangles that are counter-clockwise from above: this version knows no overhangs");
-  }
-  return {};
+// Height of a face's plane at a place, m.
+float height_of(const Surface& surface, std::uint32_t face, const Vec3d& p) {
+  const auto [id, at] = corners_of(surface, face);
+  const Vec3d across = cross(at[1] - at[0], at[2] - at[0]);
+  return static_cast<float>(at[0].z - (across.x * (p.x - at[0].x) + across.y * (p.y - at[0].y)) / across.z);
 }
 
 // A face with x, y inside it, not on its edge, that has none of the corners `but`.
@@ -105,20 +162,28 @@ std::optional<std::uint32_t> face_at(const Surface& surface, const geometry::Bvh
   return std::nullopt;
 }
 
-// Bodies and soil know one height at each place.
+// Ground over ground must have an underside, which tells what is below it from what is in it. Asked at the middle of
+// each face and just inside its corners.
 Result<void> check_layers(const Surface& surface) {
   geometry::Bvh bvh;
   bvh.build(surface.mesh.face_count(), geometry::corners_in(surface.mesh.triangles()), surface.position, 0,
             geometry::Bvh::Order::by_place, Jobs(1));
   std::vector<std::uint32_t> found;
+  state::RegionScratch scratch;
   for (std::uint32_t face = 0; face < surface.mesh.face_count(); ++face) {
     const auto [id, at] = corners_of(surface, face);
-    std::optional<std::uint32_t> other = face_at(surface, bvh, (at[0] + at[1] + at[2]) * (1.0 / 3), id, found);
-    for (std::size_t k = 0; k < 3 && !other; ++k) other = face_at(surface, bvh, at[k], std::span(&id[k], 1), found);
-    if (other) {
-      return refuse(
-          fmt::format("triangles {} and {} lie above each other", std::min(face, *other), std::max(face, *other)),
-          "expected one height at each place: this version knows no overhangs");
+    const Vec3d middle = (at[0] + at[1] + at[2]) * (1.0 / 3);
+    for (const Vec3d& p : {middle, at[0], at[1], at[2]}) {
+      const Vec3d inside = p + (middle - p) * 0.01;
+      const auto other = face_at(surface, bvh, inside, id, found);
+      if (!other) continue;
+      const auto x = static_cast<float>(inside.x), y = static_cast<float>(inside.y);
+      if (state::rigid_between(surface, x, y, static_cast<float>(inside.z), height_of(surface, *other, inside),
+                               scratch))
+        continue;
+      return refuse(fmt::format("triangles {} and {} of those that face up lie above each other",
+                                std::min(face, *other), std::max(face, *other)),
+                    "expected an underside between them");
     }
   }
   return {};
@@ -151,14 +216,24 @@ Result<Surface> load_mesh(const MeshTerrain& mesh, std::uint64_t max_vertices) {
     return refuse(std::move(error.problem), "expected " + error.expected);
   }
 
+  const auto up = faces_up(mesh);
+  if (!up) return tl::unexpected(up.error());
+
   Surface surface;
   surface.origin = center_of(mesh);
   surface.position = local_positions(mesh, *connected, surface.origin);
-  surface.mesh = std::move(*connected);
-  if (auto ok = check_facing(surface); !ok) return tl::unexpected(ok.error());
+  if (std::find(up->begin(), up->end(), false) == up->end()) {
+    surface.mesh = std::move(*connected);
+  } else {
+    std::vector<std::uint32_t> ground;
+    part_rigid(*connected, *up, surface, ground);
+    for (const std::uint32_t v : surface.rigid.copies) surface.position.push_back(surface.position[v]);
+    surface.rigid.bvh.build(surface.rigid.triangles, surface.position, 0, Jobs(1));
+    surface.mesh = HalfEdgeMesh::build(static_cast<std::uint32_t>(surface.position.size()), std::move(ground)).value();
+  }
   if (auto ok = check_layers(surface); !ok) return tl::unexpected(ok.error());
-  surface.material.assign(count, 0);
-  surface.column.assign(count, kNone);
+  surface.material.assign(surface.position.size(), 0);
+  surface.column.assign(surface.position.size(), kNone);
   surface.spacing = mean_spacing(surface);
   return surface;
 }

@@ -28,6 +28,7 @@ std::uint64_t fingerprint(const state::Surface& surface) {
   core::Hash hash;
   for (const Vec3& p : surface.position) hash.add(p.x), hash.add(p.y), hash.add(p.z);
   for (const std::uint32_t vertex : surface.mesh.triangles()) hash.add(static_cast<std::uint64_t>(vertex));
+  for (const std::uint32_t vertex : surface.rigid.triangles) hash.add(static_cast<std::uint64_t>(vertex));
   for (const std::uint8_t material : surface.material) hash.add(static_cast<std::uint64_t>(material));
   for (const double number : {surface.origin.x, surface.origin.y, surface.origin.z}) hash.add(number);
   return hash.value();

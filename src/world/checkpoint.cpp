@@ -159,6 +159,7 @@ void archive_triangles(Archive& a, Impl& w) {
     w.dirty_chunk.resize(vertices / kDirtyChunk + 1, false);
     const auto& wanted = w.scene.terrain.refine;
     if (w.refine_limits.budget > wanted.budget || vertices - base > wanted.budget) return a.fail();
+    w.list_triangles();
   }
 }
 

@@ -107,6 +107,8 @@ Result<World> World::create(const Scene& scene, std::shared_ptr<const Jobs> jobs
     if (!material_at) return tl::unexpected(material_at.error());
     impl->material_at = std::move(*material_at);
   }
+  impl->list_triangles();
+  if (impl->surface.rigid.any()) impl->rigid.add(impl->surface.rigid, impl->surface.position, impl->media.front());
   impl->tree.margin = kBoxMargin * impl->surface.spacing;
   refit::build(impl->tree, impl->surface, *impl->jobs);
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -18,29 +17,17 @@ constexpr double kLipEnd = 2.5;       // crater radii: soil further out belongs 
 // A ray whose edge lies further out than this, in radii of the ground that failed, has run into another crater.
 constexpr double kOwn = 1.35;
 
-// Sinkage under x, y, m; not a number beside the surface.
-double sinkage_at(const state::Surface& surface, const state::Soil& soil, const geometry::Bvh& bvh, Vec3 at,
+// Sinkage of the ground that a place belongs to, m; not a number beside the surface.
+double sinkage_at(const state::Surface& surface, const state::Soil& soil, const geometry::Bvh& bvh, const Vec3& at,
                   state::RegionScratch& scratch) {
-  math::Aabb line;
-  line.include(Vec3{at.x, at.y, -math::Aabb::kInf});
-  line.include(Vec3{at.x, at.y, math::Aabb::kInf});
-  scratch.faces.clear();
-  state::faces_near(surface, bvh, line, scratch.faces);
-  for (const std::uint32_t face : scratch.faces) {
-    std::array<std::uint32_t, 3> v;
-    for (std::uint32_t k = 0; k < 3; ++k) v[k] = surface.mesh.origin(3 * face + k);
-    const Vec3 a = surface.position[v[0]], b = surface.position[v[1]], c = surface.position[v[2]];
-    const auto side = [&](const Vec3& p, const Vec3& q) {
-      return (q.x - p.x) * (at.y - p.y) - (q.y - p.y) * (at.x - p.x);
-    };
-    const std::array<float, 3> w = {side(b, c), side(c, a), side(a, b)};
-    const float total = w[0] + w[1] + w[2];
-    if (!(total > 0) || w[0] < 0 || w[1] < 0 || w[2] < 0) continue;
-    const double height =
-        (static_cast<double>(w[0]) * a.z + static_cast<double>(w[1]) * b.z + static_cast<double>(w[2]) * c.z) / total;
-    return original_height(surface, soil, face, {at.x, at.y, height}) - height;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
+  const state::SurfacePoint point = state::surface_at(surface, bvh, at, scratch);
+  if (!point.found) return std::numeric_limits<double>::quiet_NaN();
+  const auto corner = [&](std::uint32_t k) {
+    return to_double(surface.position[surface.mesh.origin(3 * point.face + k)]);
+  };
+  const Vec3d a = corner(0), across = cross(corner(1) - a, corner(2) - a);
+  const double height = a.z - (across.x * (at.x - a.x) + across.y * (at.y - a.y)) / across.z;
+  return original_height(surface, soil, point.face, {at.x, at.y, height}) - height;
 }
 
 /// A profile from ground zero outward.

@@ -95,8 +95,10 @@ Vec3d center_at(const BodySettings& body, const geometry::Solid& solid, const Ve
   return origin - math::rotate(orientation, solid.origin);
 }
 
-// Lift of a body of any shape: every vertex under it, and points all over its underside, must come to lie free.
-std::optional<double> lift_of_any(const World::Impl& w, const BodySettings& body, const Placed& placed) {
+// Lift of a body of any shape: every vertex under it, and points all over its underside, must come to lie free. Of
+// ground in layers the highest counts; or, with `from`, that which a place so high belongs to.
+std::optional<double> lift_of_any(const World::Impl& w, const BodySettings& body, const Placed& placed,
+                                  std::optional<float> from = {}) {
   Quat orientation;
   const Vec3d center = center_at(body, *placed.solid, {placed.origin.x, placed.origin.y, 0}, orientation);
   geometry::PosedSolid posed;
@@ -108,8 +110,8 @@ std::optional<double> lift_of_any(const World::Impl& w, const BodySettings& body
   const auto sample = [&](double x, double y) {
     const geometry::Underside under = posed.underside(x, y);
     if (!under.below) return;
-    const state::SurfacePoint ground =
-        state::surface_at(w.surface, w.tree.bvh, static_cast<float>(x), static_cast<float>(y), w.region_scratch);
+    const Vec3 place{static_cast<float>(x), static_cast<float>(y), from.value_or(math::Aabb::kInf)};
+    const state::SurfacePoint ground = state::surface_at(w.surface, w.tree.bvh, place, w.region_scratch);
     if (ground.found) meet(ground.position.z, under.height);
   };
   math::Aabb column;
@@ -120,6 +122,7 @@ std::optional<double> lift_of_any(const World::Impl& w, const BodySettings& body
   state::vertices_near(w.surface, w.tree.bvh, column, w.region_scratch, vertices);
   for (const std::uint32_t v : vertices) {
     const Vec3 p = w.surface.position[v];
+    if (from && state::rigid_between(w.surface, p.x, p.y, *from, p.z, w.region_scratch)) continue;
     if (const geometry::Underside under = posed.underside(p.x, p.y); under.below) meet(p.z, under.height);
   }
   const Vec3d size = posed.high() - posed.low();
@@ -145,7 +148,7 @@ Result<void> check_underside(const World::Impl& w, const BodySettings& body, con
   if (sphere != nullptr) return {};
   geometry::PosedSolid posed;
   posed.place(*placed.solid, center, orientation);
-  const auto touching = lift_of_any(w, body, placed);
+  const auto touching = lift_of_any(w, body, placed, static_cast<float>(center.z));
   const double deep = touching ? *touching - placed.origin.z : 0, height = posed.high().z - posed.low().z;
   if (deep <= kMost * height) return {};
   return fail({.key = fmt::format("bodies.{}.position", body.name),
@@ -198,8 +201,7 @@ bool is_set_down(const World::Impl& w, const BodySettings& body, const Placed& p
 Result<void> check_place(const World::Impl& w, const BodySettings& body, const Placed& placed) {
   Quat orientation;
   const Vec3d center = center_at(body, *placed.solid, placed.origin, orientation);
-  const state::SurfacePoint ground = state::surface_at(w.surface, w.tree.bvh, static_cast<float>(center.x),
-                                                       static_cast<float>(center.y), w.region_scratch);
+  const state::SurfacePoint ground = state::surface_at(w.surface, w.tree.bvh, to_float(center), w.region_scratch);
   if (body.above_ground || !ground.found) return {};
   if (center.z >= ground.position.z) return check_underside(w, body, placed, center, orientation);
   return fail({.key = fmt::format("bodies.{}.position", body.name),

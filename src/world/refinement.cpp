@@ -30,8 +30,7 @@ laws::CraterSize crater_of(const World::Impl& w, double yield, double height) {
 // A bomb's crater as the stage refines it; radius 0: it leaves none.
 refine::Zone zone_of(const World::Impl& w, const Bomb& bomb) {
   const Vec3d burst = bomb.position - w.surface.origin;
-  const state::SurfacePoint ground = state::surface_at(w.surface, w.tree.bvh, static_cast<float>(burst.x),
-                                                       static_cast<float>(burst.y), w.region_scratch);
+  const state::SurfacePoint ground = state::surface_at(w.surface, w.tree.bvh, to_float(burst), w.region_scratch);
   if (!ground.found) return {};
   const laws::CraterSize size = crater_of(w, bomb.yield, burst.z - ground.position.z);
   if (!(size.radius > 0) || !(size.depth > 0)) return {};
@@ -79,6 +78,16 @@ void World::Impl::reserve_budget() {
   const std::size_t most = std::size_t{surface.bisection.base_vertex_count()} + refine_limits.budget;
   surface.mesh.reserve(most, std::size_t{surface.bisection.base_face_count()} + 2 * std::size_t{refine_limits.budget});
   surface.position.reserve(most), surface.material.reserve(most), surface.column.reserve(most);
+  if (surface.rigid.any())
+    triangles.reserve(surface.rigid.triangles.size() + surface.mesh.triangles().size() +
+                      6 * std::size_t{refine_limits.budget});
+}
+
+void World::Impl::list_triangles() {
+  if (!surface.rigid.any()) return;
+  const auto ground = surface.mesh.triangles();
+  triangles.assign(surface.rigid.triangles.begin(), surface.rigid.triangles.end());
+  triangles.insert(triangles.end(), ground.begin(), ground.end());
 }
 
 void World::Impl::mark_dirty(std::uint32_t vertex) {
@@ -102,6 +111,7 @@ bool World::Impl::refine_ground(StepReport& report) {
         refine::update(ground, tree.bvh, bodies, zones, refine_limits, {scene.dt, length(scene.gravity)}, may_join,
                        refine_progress, refine_scratch);
     for (std::size_t k = known; k < retriangulated.size(); ++k) mark_dirty(retriangulated[k]);
+    if (retriangulated.size() > known) list_triangles();
     // Nobody may ever ask for them.
     drop_repeats(retriangulated, surface.position.size());
     drop_repeats(surface.bisection.changed(), surface.mesh.face_count());

@@ -74,7 +74,8 @@ struct World::Impl {
   std::function<std::uint8_t(double x, double y)> material_at;  ///< between vertices; follows from the scene
   refine::Scratch refine_scratch;
   std::vector<std::uint32_t> retriangulated;  ///< vertices that came or went since take_topology(), with repeats
-  std::vector<bool> shown;                    ///< [added vertex] was there at the last take_topology()
+  std::vector<std::uint32_t> triangles;  ///< of rigid faces, then of the ground, for views; empty without the former
+  std::vector<bool> shown;               ///< [added vertex] was there at the last take_topology()
 
   activation::Scratch activation_scratch;
   contact::Scratch contact_scratch;
@@ -99,6 +100,7 @@ struct World::Impl {
 
   void plan_refinement();  ///< how fine the scene's bodies and bombs want the ground
   void reserve_budget();   ///< views of the ground stay where they are, however many triangles come
+  void list_triangles();   ///< after faces came or went
   void mark_dirty(std::uint32_t vertex);
 
   // The stages, with their inputs and outputs taken from the state (stages.cpp).

@@ -24,7 +24,8 @@ std::size_t World::peak_particles() const { return impl_->peak_particles; }
 
 SurfaceView World::surface() const {
   const state::Surface& s = impl_->surface;
-  return {s.origin, s.position, s.mesh.triangles(), s.material, s.spacing};
+  const std::size_t rigid = s.rigid.triangles.size() / 3;
+  return {s.origin, s.position, rigid > 0 ? impl_->triangles : s.mesh.triangles(), s.material, s.spacing, rigid};
 }
 
 ParticleView World::particles() const {
@@ -73,7 +74,9 @@ Topology World::take_topology() {
   };
   std::vector<std::uint32_t>& faces = surface.bisection.changed();
   sort_unique(faces);
-  for (const std::uint32_t face : faces) {
+  const auto rigid = static_cast<std::uint32_t>(surface.rigid.triangles.size() / 3);  // views have them first
+  for (std::uint32_t face : faces) {
+    face += rigid;
     if (!topology.triangles.empty() && topology.triangles.back().second == face)
       ++topology.triangles.back().second;
     else
