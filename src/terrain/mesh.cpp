@@ -228,7 +228,9 @@ Result<Surface> load_mesh(const MeshTerrain& mesh, std::uint64_t max_vertices) {
     std::vector<std::uint32_t> ground;
     part_rigid(*connected, *up, surface, ground);
     for (const std::uint32_t v : surface.rigid.copies) surface.position.push_back(surface.position[v]);
-    surface.rigid.bvh.build(surface.rigid.triangles, surface.position, 0, Jobs(1));
+    surface.rigid.bvh.build(static_cast<std::uint32_t>(surface.rigid.triangles.size() / 3),
+                            geometry::corners_in(surface.rigid.triangles), surface.position, 0,
+                            geometry::Bvh::Order::by_place, Jobs(1));
     surface.mesh = HalfEdgeMesh::build(static_cast<std::uint32_t>(surface.position.size()), std::move(ground)).value();
   }
   if (auto ok = check_layers(surface); !ok) return tl::unexpected(ok.error());
