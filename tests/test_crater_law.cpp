@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <vector>
 
 #include "laws/blast.h"
@@ -148,17 +149,22 @@ TEST(LawsCrater, ProfileIsThePressuresExcess) {
 
 TEST(LawsCrater, WhatCannotBeCompactedLeaves) {
   const CraterSize size{.radius = 4, .depth = 2, .lip_share = 0.185};
-  EXPECT_EQ(leaving_share(size, 2, 0, 0.3), 0.185) << "loose soil takes it all";
-  EXPECT_NEAR(leaving_share(size, 2, 0, 0.03), 1 - 0.03 * 4.5 * 4 / 2, 1e-12);
-  EXPECT_EQ(leaving_share(size, 2, 0, 0), 1) << "rock takes none";
-  EXPECT_EQ(leaving_share(size, 0.1, 0, 0.03), 0.185) << "at the edge little sinks";
+  const double pi = std::numbers::pi, volume = 0.45 * pi * 4 * 4 * 2, around = 2.0 / 3 * pi * 10 * 10 * 10;
+  EXPECT_EQ(leaving_share(size, 0, 0.03), 0.185) << "soil takes it all";
+  EXPECT_NEAR(leaving_share(size, 0, 0.01), 1 - 0.01 * around / volume, 1e-12) << "rock some of it";
+  EXPECT_LT(leaving_share(size, 1, 0.01), leaving_share(size, 0, 0.01)) << "more the deeper the charge lies";
+  EXPECT_EQ(leaving_share(size, 0, 0), 1) << "none";
 }
 
 TEST(LawsCrater, EjectaLieHighOnTheLipAndThinBeyond) {
   EXPECT_EQ(ejecta_profile(1), 0);
-  EXPECT_NEAR(ejecta_profile(1.1), 1, 1e-9);
+  EXPECT_NEAR(ejecta_profile(1.12), 1, 1e-9);
   EXPECT_NEAR(ejecta_profile(2.1) / ejecta_profile(1.9), std::pow(2.1 / 1.9, -3.86), 1e-9) << "[DNA 1984]";
-  EXPECT_NEAR(ejecta_profile(1.8), ejecta_profile(1.8001), 1e-4);
+  double before = ejecta_profile(1.0);
+  for (double ratio = 1; ratio < 2.14; ratio += 0.001) {
+    EXPECT_NEAR(ejecta_profile(ratio), before, 0.013) << "no jump at " << ratio;
+    before = ejecta_profile(ratio);
+  }
   EXPECT_EQ(ejecta_profile(2.15), 0);
 }
 

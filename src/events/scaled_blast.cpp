@@ -15,19 +15,21 @@ namespace {
 // The crater of the burst in each soil of the terrain.
 struct Sizes {
   std::vector<laws::CraterSize> of;  // [material]
+  std::vector<double> leaves;        // [material] share of its volume that does not stay below it
   double largest = 0;                // m, radius
-  bool heaves = false;               // some soil cannot be compacted as far as it sinks
+  bool heaves = false;               // some soil cannot be compacted as much as it sinks
 };
 
 Sizes crater_sizes(const Burst& burst, std::span<const laws::Medium> media) {
   Sizes sizes;
   for (const laws::Medium& m : media) {
     const laws::CraterSize size = laws::scaled_crater(burst.yield, burst.height, m, burst.gravity);
+    const double buried = std::max(0.0, -burst.height);
+    const double leaves = size.radius > 0 ? laws::leaving_share(size, buried, m.compaction_limit) : 0;
     sizes.of.push_back(size);
+    sizes.leaves.push_back(leaves);
     sizes.largest = std::max(sizes.largest, size.radius);
-    if (size.radius > 0)
-      sizes.heaves |=
-          laws::leaving_share(size, size.depth, std::max(0.0, -burst.height), m.compaction_limit) > size.lip_share;
+    sizes.heaves |= leaves > size.lip_share;
   }
   return sizes;
 }
@@ -141,16 +143,14 @@ void push_scaled(const Burst& given, state::Blast& blast, state::Surface& surfac
   const double reach = (sizes.heaves ? laws::kUpthrustEnd : 2 * laws::kEjectaEnd) * sizes.largest;
   const std::vector<Target> reached = targets(blast, reach, surface, bvh, scratch);
   const Edge edge(sizes, reached, surface);
-  const double buried = std::max(0.0, -burst.height);
   double thrown = 0, heaved = 0;
   std::vector<Landing> landing;
   for (const Target& t : reached) {
-    const laws::Medium& own = media[surface.material[t.vertex]];
     const laws::CraterSize& size = sizes.of[surface.material[t.vertex]];
     const double deep = size.radius > 0 ? size.depth * laws::crater_profile(t.radius, t.above, size.radius) : 0;
     if (deep > 0) {
       const std::uint32_t column = state::touch_column(surface, soil, t.vertex);
-      const double leaves = laws::leaving_share(size, deep, buried, own.compaction_limit);
+      const double leaves = sizes.leaves[surface.material[t.vertex]];
       // A push falling to 0 over the time P against a relaxation time 2 P ends push P^2 deep.
       blast.column.push_back(column);
       blast.push.push_back(static_cast<float>(deep / (blast.pulse * blast.pulse)));

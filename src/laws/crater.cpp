@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "laws/blast.h"
 
@@ -32,12 +33,14 @@ constexpr double kRadiusEnds = 1.5, kRadiusExponent = 0.8, kDepthEnds = 1.25, kD
 // Lips of bursts just above ground hold 20 to 30 % of the crater's volume, at it 15 to 20 %, of deep ones 50 to 70 %
 // [EPG].
 constexpr double kScoured = 0.35, kScourHeight = 0.1, kDeepLip = 0.6, kShallow = 0.15, kDeep = 0.8;
-// Soil is compacted to a depth of so many crater radii: dry sand can then lose by compaction what its measured lips
-// lack.
-constexpr double kCompacted = 4.5;
-// Lip: with the share of the soil that is thrown, crest and exponent set its height, a fifth of the depth, about as
-// steep as loose soil stands. Thin ejecta beyond 1.8 radii fall as r^-3.86 [DNA 1984] and end at 2.15 [TM 5-855-1].
-constexpr double kCrest = 1.1, kLipExponent = 12, kThin = 1.8, kThinExponent = 3.86, kUpthrustExponent = 2;
+// Volume of the crater's profile over pi R^2 depth.
+constexpr double kBowl = 0.45;
+// Soil is compacted out to so many crater radii from the charge, the end of the plastic zone [Glasstone & Dolan 1977].
+constexpr double kCompacted = 2.5;
+// Lip: rounded, so that it is as high on a coarse mesh as on a fine one, and about as steep as loose soil stands. Thin
+// ejecta fall as r^-3.86 [DNA 1984] and end at 2.15 radii [TM 5-855-1].
+constexpr double kCrest = 1.12, kFoot = 1.3, kThinHeight = 0.01, kThin = 1.8, kThinExponent = 3.86;
+constexpr double kUpthrustExponent = 2;
 
 double smooth(double t) {
   t = std::clamp(t, 0.0, 1.0);
@@ -97,21 +100,24 @@ double crater_profile(double radius, double above, double crater_radius) {
   return std::clamp(excess(radius, up) / excess(0, source), 0.0, 1.0);
 }
 
-double leaving_share(const CraterSize& crater, double sunk, double buried, double compaction_limit) {
-  const double capacity = compaction_limit * (kCompacted * crater.radius + buried);
-  return std::clamp(1 - capacity / sunk, crater.lip_share, 1.0);
+double leaving_share(const CraterSize& crater, double buried, double compaction_limit) {
+  // A half ball below the ground, or below the charge with a cylinder above it.
+  const double zone = kCompacted * crater.radius, round = std::numbers::pi * zone * zone;
+  const double capacity = compaction_limit * round * (2.0 / 3 * zone + buried);
+  const double volume = kBowl * std::numbers::pi * crater.radius * crater.radius * crater.depth;
+  return std::clamp(1 - capacity / volume, crater.lip_share, 1.0);
 }
 
 double ejecta_profile(double ratio) {
   if (ratio <= 1 || ratio >= kEjectaEnd) return 0;
-  if (ratio < kCrest) return (ratio - 1) / (kCrest - 1);
-  if (ratio <= kThin) return std::pow(ratio / kCrest, -kLipExponent);
-  return std::pow(kThin / kCrest, -kLipExponent) * std::pow(ratio / kThin, -kThinExponent);
+  if (ratio < kCrest) return smooth((ratio - 1) / (kCrest - 1));
+  const double thin = kThinHeight * std::pow(std::max(ratio, kThin) / kThin, -kThinExponent);
+  return thin + (1 - thin) * smooth((kFoot - ratio) / (kFoot - kCrest));
 }
 
 double upthrust_profile(double ratio) {
   if (ratio <= 1 || ratio >= kUpthrustEnd) return 0;
-  if (ratio < kCrest) return (ratio - 1) / (kCrest - 1);
+  if (ratio < kCrest) return smooth((ratio - 1) / (kCrest - 1));
   const double far = (ratio - kCrest) / (kUpthrustEnd - kCrest);
   return std::pow(ratio / kCrest, -kUpthrustExponent) * (1 - far);
 }

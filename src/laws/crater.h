@@ -19,9 +19,9 @@ CraterSize scaled_crater(double yield, double height, const Medium& soil, double
 /// zero, [0, 1]; 0 from `crater_radius` on where the ground is flat.
 double crater_profile(double radius, double above, double crater_radius);
 
-/// Share of the volume a column loses that leaves it, [0, 1]: `lip_share`, and whatever its soil cannot lose by
-/// compaction. `sunk` in m, > 0; `buried`: depth of burst, m.
-double leaving_share(const CraterSize& crater, double sunk, double buried, double compaction_limit);
+/// Share of the crater's volume that leaves it, [0, 1]: `lip_share`, and whatever the ground around it cannot take up
+/// by compaction. `buried`: depth of burst, m.
+double leaving_share(const CraterSize& crater, double buried, double compaction_limit);
 
 /// Height of what was thrown (ejecta) and of what was pushed up (upthrust) at `ratio` crater radii from ground zero,
 /// each 1 at the crest; 0 inside the crater.

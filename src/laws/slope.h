@@ -20,6 +20,11 @@ inline double critical_height(const Medium& s, double gravity) {
   return 4 * cohesion / (s.density * gravity) * (t + std::sqrt(1 + t * t));
 }
 
+/// What of an `excess`, m, by which cohesive ground falls beyond its slope of rest, counts against that height where it
+/// is so steep. A slope of height H has an excess of H (1 - x), x = rest / slope, and stands while H (1 - x)^2 is less:
+/// the safe side of [Taylor 1937], whose slopes stand H (1 - x)^2 to H (1 - x)^4 high.
+inline double counted_height(double excess, double slope, double rest) { return excess * (1 - rest / slope); }
+
 /// How easily ground flows down a slope, m^2/s: soil beyond the angle of repose, in a layer a third as thick as the
 /// whole slide is high, moves as fast as something that fell so far.
 inline double slide_mobility(double height, double gravity) { return 0.3 * height * std::sqrt(gravity * height); }

@@ -145,8 +145,8 @@ bool look_at(const Site& site, std::uint32_t face, const LeastSlopes& least, Sli
   const Corner& top = *std::max_element(p.begin(), p.end(), [](auto& a, auto& b) { return a.now.z < b.now.z; });
   const laws::Medium& medium = site.medium(top.vertex);
   if (slope <= medium.tan_repose + kAtRest) return false;
-  const double stands = site.stands_to(top.vertex);
-  if (stands > 0 && site.excess(top.vertex) <= stands) return false;
+  if (const double stands = site.stands_to(top.vertex); stands > 0)
+    if (laws::counted_height(site.excess(top.vertex), slope, medium.tan_repose) <= stands) return false;
   const double intact = intact_slope(p, medium.tan_repose);
   const auto base = [](const Corner& c) { return c.now - Vec3d{0, 0, c.loose}; };
   const double below = gradient(base(p[0]), base(p[1]), base(p[2]), area).size();
