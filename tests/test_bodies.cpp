@@ -28,6 +28,33 @@ double plate_sinkage(const Material& soil, double pressure, double b) {
   return std::pow(pressure / (soil.bekker_kc / b + soil.bekker_kphi), 1 / soil.bekker_n);
 }
 
+// ---- what is left behind
+
+TEST(Bodies, TheTrailSleepsWhateverRollsOn) {
+  Scene scene = scene_on("dry_sand", 0.1);
+  std::get<GridTerrain>(scene.terrain.shape).columns = 181;
+  scene.terrain.material = "soft";
+  Material soft = *find_preset("dry_sand");
+  soft.name = "soft", soft.bekker_kc = 0, soft.bekker_kphi = 0.2e6, soft.cohesion = 0;
+  scene.materials = {soft};
+  scene.gravity = {3, 0, -9.34};
+  scene.dt = 0.004;
+  scene.bodies = {{.shape = Sphere{1},
+                   .mass = 2000,
+                   .position = {-8, 0, 0},
+                   .above_ground = true,
+                   .velocity = {3, 0, 0},
+                   .angular_velocity = {0, 3, 0}}};
+  World world = make_world(scene);
+  run_to(world, 4);
+  const BodyView sphere = world.bodies()[0];
+  ASSERT_GT(sphere.position.x, 4);
+  EXPECT_TRUE(sphere.touching);
+  const ParticleView awake = world.particles();
+  for (std::size_t i = 0; i < awake.x.size(); ++i)
+    EXPECT_GT(awake.x[i], sphere.position.x - 3.5) << "m behind it is ground again";
+}
+
 // ---- shapes
 
 TEST(Bodies, APlateSinksAsBekkersPressureSaysOnAnyGrid) {

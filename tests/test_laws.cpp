@@ -251,6 +251,9 @@ TEST(LawsGround, AnswersPressureShearAndPull) {
   // Pulled: elastic at first, never more than cohesion.
   EXPECT_NEAR(traction({0, 0, 0.5e-4f}).z, -50, 0.01);
   EXPECT_FLOAT_EQ(traction({0, 0, 1}).z, -100);
+  Medium heavy = s;
+  heavy.weight = 50;
+  EXPECT_FLOAT_EQ(ground_traction(heavy, {0, 0, 1}, {}, 0, fine).z, -150);
   // Sheared: against the displacement, up to the strength under the pressure that is there.
   const Vec3 sheared = traction({0.3f, 0.4f, -0.1f});
   const double strength = 100 + 2e4 * std::tan(std::numbers::pi / 6);

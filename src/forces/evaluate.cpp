@@ -105,8 +105,8 @@ void yield_ground(std::size_t i, const state::Particles& p, state::Soil& soil, c
       soil.plastic[c] = z - pressure.value / stiffness;
       rest.z = fresh - soil.plastic[c];
     }
-  } else if (-sunk * stiffness > medium.cohesion) {
-    rest.z = p.z[i] - medium.cohesion / stiffness;
+  } else if (const float holds = medium.cohesion + medium.weight; - sunk * stiffness > holds) {
+    rest.z = p.z[i] - holds / stiffness;
     soil.plastic[c] = std::max(0.0f, fresh - rest.z);
   }
   // Sheared so far that the soil slides.

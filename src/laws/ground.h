@@ -49,7 +49,7 @@ DIVOT_INLINE Traction<Real> ground_traction(const Medium& s, float stiffness, fl
   // A free particle's patch has no edge: b is infinite. Where z is not above 0 nothing pushes, though it is pressed.
   const Real z = greatest(plastic + sunk, zero);
   const Real virgin = Real(s.bekker_kphi) * (s.bekker_n == 1 ? z : to_the_power(z, s.bekker_n));
-  const Real normal = select(sunk > zero, least(elastic, virgin), greatest(elastic, Real(-s.cohesion)));
+  const Real normal = select(sunk > zero, least(elastic, virgin), greatest(elastic, Real(-s.cohesion - s.weight)));
 
   const Real j = root(dx * dx + dy * dy);
   const Real strength = Real(s.cohesion) + greatest(normal, zero) * Real(s.tan_friction);

@@ -13,6 +13,7 @@ inline constexpr std::uint8_t kNoLayer = 255;
 /// A material as the stages use it: per unit of area, in floats. Made once from the checked Material.
 struct Medium {
   float areal_mass = 0;        ///< kg/m^2 of particles
+  float weight = 0;            ///< Pa, of particles: what lifts them off the ground has to overcome; world/ sets it
   float bond_energy = 0;       ///< J/m^2: e0 of a bond is this times its rest length squared
   float attraction = 0;        ///< m of eq. 6
   float repulsion = 0;         ///< n of eq. 6

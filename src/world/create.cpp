@@ -28,10 +28,11 @@ std::vector<Material> materials_in_use(const Scene& scene) {
   return used;
 }
 
-std::vector<laws::Medium> media_of(const std::vector<Material>& materials) {
+std::vector<laws::Medium> media_of(const std::vector<Material>& materials, double gravity) {
   std::vector<laws::Medium> media;
   for (const Material& material : materials) {
     media.push_back(laws::make_medium(material));
+    media.back().weight = static_cast<float>(gravity) * media.back().areal_mass;
     if (material.over.empty()) continue;
     const auto below = std::ranges::find(materials, material.over, &Material::name);
     media.back().below = static_cast<std::uint8_t>(below - materials.begin());
@@ -94,7 +95,7 @@ Result<World> World::create(const Scene& scene, std::shared_ptr<const Jobs> jobs
     return fail({.key = "materials",
                  .problem = fmt::format("the ground is made of {} materials", impl->materials.size()),
                  .expected = fmt::format("expected at most {}", laws::kNoLayer)});
-  impl->media = media_of(impl->materials);
+  impl->media = media_of(impl->materials, std::max(0.0, -scene.gravity.z));
   if (auto ok = terrain::place_materials(scene, impl->materials, *surface); !ok) return tl::unexpected(ok.error());
   impl->surface = std::move(*surface);
   impl->terrain_fingerprint = terrain::fingerprint(impl->surface);

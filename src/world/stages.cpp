@@ -8,9 +8,9 @@
 namespace divot {
 namespace {
 
-// A particle slower than this share of the spacing a second, or than so many m/s, for this long, is still. Loose soil
-// that creeps on by less than a millimetre a second would keep a rut's whole length awake.
-constexpr double kStillSpeed = 1e-3, kCreep = 1e-3, kStillTime = 0.2;
+// A particle slower than this share of the spacing a second, or than so many m/s, for this long, is still: it has at
+// most two millimetres less of its way. Soil that creeps on as bonds give way would keep a rut's whole length awake.
+constexpr double kStillSpeed = 1e-3, kCreep = 1e-2, kStillTime = 0.2;
 
 // Substeps follow the fastest thing in the particle system. Semi-implicit Euler is stable while (frequency h)^2 + 2
 // damping h stays below 4, so each times h may be 1.
