@@ -4,18 +4,21 @@
 #include <cmath>
 #include <ctime>
 #include <memory>
+#include <optional>
 
 #include "bench/stepping.h"
+#include "divot/scene.h"
 
 namespace divot::bench {
 namespace {
 
-// Edges of uniform grids and of the finest new triangles, m, for coarse grids of 8 cells to an edge of the first; the
-// last uniform one is what the others are held against.
+// What is run on uniform grids, of which the last is what all else is held against, and on a coarse one that is
+// refined.
 struct Subject {
   const char* name;
-  double wide, deep;  // m, of the ground
-  std::array<double, 5> edges;
+  double wide, deep;          // m, of the ground
+  double coarse;              // m, between the vertices that are refined
+  std::vector<double> edges;  // m, of uniform grids
   std::function<void(Scene&)> fill;
   std::function<std::vector<double>(const World&)> results;
 };
@@ -33,36 +36,84 @@ void add_ball(Scene& scene) {
 
 void add_bomb(Scene& scene) {
   scene.duration = 3;
-  scene.terrain.refine.curvature = 0.001;  // as fine as min_edge says
   scene.bombs = {{.time = 0, .position = {1, 2, 0}, .yield = 5}};
 }
 
-const std::array<Subject, 2>& subjects() {
-  static const std::array<Subject, 2> kSubjects = {
-      Subject{"ball",
-              48,
-              22.4,
-              {0.4, 0.2, 0.1, 0.05, 0.025},
-              &add_ball,
-              [](const World& world) {
-                const BodyView ball = world.bodies().front();
-                return std::vector{ball.max_sinkage, ball.position.x + 5};
-              }},
-      Subject{"crater", 256, 256, {4, 2, 1, 0.5, 0.25}, &add_bomb, [](const World& world) {
-                const Crater crater = world.craters().front();
-                return std::vector{crater.width, crater.depth};
-              }}};
-  return kSubjects;
+void add_truck(const Request& request, Scene& scene) {
+  if (const auto truck = load_scene(request.scenes + "/truck.toml"))
+    scene.bodies = truck->bodies, scene.joints = truck->joints;
+  scene.duration = 6;
+  scene.terrain.material = "wheat_field";
 }
 
-Scene scene_of(const Subject& subject, double spacing, double min_edge) {
+// Mean depth and width at half of it, m, of the rut on the left, where all wheels have been: from a metre behind where
+// the truck's rear wheels started to a metre before they are.
+std::vector<double> rut_of(const World& world, double from, double to) {
+  constexpr double kMiddle = 0.8, kBeside = 0.5, kStep = 0.01;
+  double depth = 0, area = 0;
+  int sections = 0;
+  for (double x = from; x < to; x += 0.1, ++sections) {
+    double deepest = 0, section = 0;
+    for (double y = kMiddle - kBeside; y < kMiddle + kBeside; y += kStep) {
+      const double sunk = std::max(0.0, -world.ground_height(x, y));
+      deepest = std::max(deepest, sunk), section += kStep * sunk;
+    }
+    depth += deepest, area += section;
+  }
+  return {depth / sections, area / depth};
+}
+
+std::vector<Subject> subjects(const Request& request) {
+  return {{"truck",
+           32,
+           16,
+           1,
+           {0.16, 0.08, 0.04, 0.02},
+           [&](Scene& scene) { add_truck(request, scene); },
+           [](const World& world) {
+             const std::vector<BodyView> bodies = world.bodies();
+             double sinkage = 0, rear = 1e9;
+             for (std::size_t wheel = 1; wheel < bodies.size(); ++wheel) {
+               sinkage = std::max(sinkage, bodies[wheel].max_sinkage);
+               rear = std::min(rear, bodies[wheel].position.x);
+             }
+             std::vector<double> results = rut_of(world, -9.5, rear - 1);
+             results.insert(results.end(), {sinkage, bodies[0].position.x + 9});
+             return results;
+           }},
+          {"ball",
+           48,
+           22.4,
+           3.2,
+           {0.4, 0.2, 0.1, 0.05, 0.025},
+           add_ball,
+           [](const World& world) {
+             const BodyView ball = world.bodies().front();
+             return std::vector{ball.max_sinkage, ball.position.x + 5};
+           }},
+          {"crater", 256, 256, 32, {4, 2, 1, 0.5, 0.25}, add_bomb, [](const World& world) {
+             const Crater crater = world.craters().front();
+             return std::vector{crater.width, crater.depth};
+           }}};
+}
+
+Scene scene_of(const Subject& subject, double spacing) {
   Scene scene;
   const auto count = [&](double length) { return static_cast<int>(std::lround(length / spacing)) + 1; };
   scene.terrain = {
       .shape = GridTerrain{.columns = count(subject.wide), .rows = count(subject.deep), .spacing = spacing},
       .material = "dry_sand"};
   subject.fill(scene);
-  scene.terrain.refine.min_edge = min_edge;
+  return scene;
+}
+
+// With default settings but for the least edge; with `half` as long a one as they ask for.
+Scene refined(const Subject& subject, double min_edge, bool half = false) {
+  Scene scene = scene_of(subject, subject.coarse);
+  Refinement& refine = scene.terrain.refine;
+  refine.min_edge = min_edge;
+  // The chord between ground and body grows with the square of the edge, how far a crater turns with the edge.
+  if (half) refine.error /= 4, refine.tolerance /= 4, refine.curvature /= 2;
   return scene;
 }
 
@@ -74,9 +125,9 @@ struct Run {
   std::vector<double> results;
 };
 
-Result<Run> run(const Subject& subject, const char* kind, double spacing, double min_edge) {
+Result<Run> run(const Subject& subject, const std::string& kind, const Scene& scene) {
   const std::clock_t start = std::clock();
-  auto world = World::create(scene_of(subject, spacing, min_edge), std::make_shared<const Jobs>(1));
+  auto world = World::create(scene, std::make_shared<const Jobs>(1));
   if (!world) return tl::unexpected(world.error());
   const int steps = static_cast<int>(std::lround(world->scene().duration / world->scene().dt));
   auto m = measure_steps(fmt::format("refinement/{}/{}", subject.name, kind), *world, {.warm_up = 0, .steps = steps});
@@ -104,36 +155,48 @@ double error_of(const std::vector<double>& results, const std::vector<double>& w
 
 Result<Report> refinement(const Request& request) {
   Report report;
-  report.text =
-      "refinement: the same answer by uniform grids and by new triangles on a grid eight times as coarse as the "
-      "coarsest\n";
+  report.text = "refinement: the same answer by uniform grids and by new triangles on a coarse one\n";
   cli::CurveChart cost = curves("refinement_cost", "CPU time of a run, loading included, s", "triangles");
   cli::CurveChart error = curves("refinement_error", "Largest error against the finest uniform grid", "triangles");
   cost.y_label = "s", error.y_label = "error";
-  for (const Subject& subject : subjects()) {
-    const double coarse = 8 * subject.edges[0];
-    std::vector<double> wanted;
-    report.text += fmt::format("{:<8} {:<9} {:>7} {:>10} {:>10} {:>9} {:>8}\n", "", "", "edge m", "vertices",
+  for (const Subject& subject : subjects(request)) {
+    report.text += fmt::format("{:<8} {:<14} {:>7} {:>10} {:>10} {:>9} {:>8}\n", "", "", "edge m", "vertices",
                                "triangles", "CPU s", "error");
-    for (auto edge = subject.edges.rbegin(); edge != subject.edges.rend(); ++edge)
-      for (const bool refined : {false, true}) {
-        const char* kind = refined ? "adaptive" : "uniform";
-        const double cells = subject.wide * subject.deep / (*edge * *edge);
-        if (cells > static_cast<double>(request.most)) continue;
-        auto one = run(subject, kind, refined ? coarse : *edge, refined ? *edge : 0);
-        if (!one) return tl::unexpected(one.error());
-        // Bodies want no finer edge than shows what they touch.
-        if (one->edge > 1.01 * *edge) continue;
-        if (wanted.empty()) wanted = one->results;
-        const double off = error_of(one->results, wanted);
-        const std::string curve = fmt::format("{}, {}", subject.name, kind);
-        const auto triangles = static_cast<double>(one->measurement.count);
-        report.text += fmt::format("{:<8} {:<9} {:>7.3f} {:>10} {:>10} {:>9.2f} {:>7.2f}%\n", subject.name, kind, *edge,
-                                   one->vertices, one->measurement.count, one->cpu_s, 100 * off);
-        add_point(cost, curve, triangles, one->cpu_s);
-        if (off > 0) add_point(error, curve, triangles, off);
-        report.results.push_back(std::move(one->measurement));
-      }
+    std::optional<Run> finest;
+    const auto measure = [&](const std::string& kind, const std::string& curve, const Scene& scene) -> Result<Run> {
+      auto one = run(subject, kind, scene);
+      if (!one) return one;
+      if (!finest) finest = *one;
+      const double off = error_of(one->results, finest->results);
+      const auto triangles = static_cast<double>(one->measurement.count);
+      report.text += fmt::format("{:<8} {:<14} {:>7.3f} {:>10} {:>10} {:>9.2f} {:>7.2f}%\n", subject.name, kind,
+                                 one->edge, one->vertices, one->measurement.count, one->cpu_s, 100 * off);
+      add_point(cost, fmt::format("{}, {}", subject.name, curve), triangles, one->cpu_s);
+      if (off > 0) add_point(error, fmt::format("{}, {}", subject.name, curve), triangles, off);
+      report.results.push_back(one->measurement);
+      return one;
+    };
+    for (auto edge = subject.edges.rbegin(); edge != subject.edges.rend(); ++edge) {
+      if (subject.wide * subject.deep / (*edge * *edge) > static_cast<double>(request.most)) continue;
+      if (auto one = measure(fmt::format("uniform/{}", *edge), "uniform", scene_of(subject, *edge)); !one)
+        return tl::unexpected(one.error());
+    }
+    const double least = subject.edges.back();
+    if (auto one = measure("adaptive/half", "adaptive", refined(subject, least, true)); !one)
+      return tl::unexpected(one.error());
+    auto one = measure("adaptive", "adaptive", refined(subject, least));
+    if (!one) return tl::unexpected(one.error());
+    const std::string verdict = fmt::format(
+        "{:<8} by default: error {:.1f} %, 1/{:.0f} of the vertices, 1/{:.1f} of the time\n", subject.name,
+        100 * error_of(one->results, finest->results),
+        static_cast<double>(finest->vertices) / static_cast<double>(one->vertices), finest->cpu_s / one->cpu_s);
+    // Coarser than what is wanted, as a limit makes it.
+    for (auto edge = subject.edges.rbegin(); edge != subject.edges.rend(); ++edge) {
+      if (*edge <= 1.01 * one->edge) continue;
+      if (auto more = measure(fmt::format("adaptive/{}", *edge), "adaptive", refined(subject, *edge)); !more)
+        return tl::unexpected(more.error());
+    }
+    report.text += verdict;
   }
   report.line_charts = {cost, error};
   return report;

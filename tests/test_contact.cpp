@@ -381,6 +381,7 @@ TEST(ContactNear, WalkFindsWhatTheBvhFinds) {
 
   test::Random random(31);
   state::Body walker;
+  walker.spacing = surface.spacing;
   walker.position = {random.in(-6.0, 6.0), random.in(-6.0, 6.0), 0};
   Scratch::PerBody scratch;
   std::size_t found = 0;
@@ -419,6 +420,7 @@ TEST(ContactNear, WhatWasFoundServesUntilItCannot) {
   const std::vector<laws::Medium> media = {laws::make_medium(Material{})};
   const Situation s{surface, bvh, soil, particles, media, {0, 0, -kGravity}, 1.0 / 60, 0, {}};
   state::Body body;
+  body.spacing = surface.spacing;
   set_ball(body, 0.5), body.position = {0.1, 0.2, 0.45}, body.velocity = {0.2, 0, 0};
   Scratch::PerBody scratch;
   scratch.start.place(*body.solid, body.position, {});

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "geometry/bvh.h"
+#include "geometry/solid.h"
+#include "refine/edges.h"
 #include "refine/join.h"
 #include "refine/refine.h"
 #include "state/region.h"
@@ -235,6 +237,31 @@ TEST(Refine, FacesAreFoundBelowThoseTheyCameFrom) {
   }
 }
 
+// ---- edges
+
+double edge_of(const Shape& shape, double load, const char* material = "dry_sand", const Accuracy& accuracy = {}) {
+  return contact_edge(*geometry::make_solid(shape), {}, load, laws::make_medium(*find_material({}, material)),
+                      accuracy);
+}
+
+// A chord of that length keeps off a ball by 4 % of the sinkage that Bekker's pressure gives it.
+TEST(RefineEdges, FollowFromHowDeepABodySinks) {
+  const double edge = edge_of(Sphere{0.6}, 600 * 9.81), sinkage = edge * edge / (8 * 0.6) / 0.04;
+  EXPECT_NEAR(sinkage, 0.054, 0.002);
+  EXPECT_GT(edge_of(Sphere{0.6}, 2000 * 9.81), edge);
+  EXPECT_NEAR(edge_of(Sphere{0.6}, 600 * 9.81, "dry_sand", {0, 0.01}), 0.5 * edge, 1e-9);
+  EXPECT_NEAR(edge_of(Sphere{0.6}, 1e6), 0.15, 1e-9) << "a quarter of its radius";
+  EXPECT_NEAR(edge_of(Sphere{0.6}, 600 * 9.81, "asphalt"), std::sqrt(8 * 0.6 * 1e-3), 1e-9) << "a millimetre";
+}
+
+TEST(RefineEdges, FollowFromTheWidthThatIsPressed) {
+  EXPECT_NEAR(edge_of(Cylinder{0.4, 0.3}, 5400, "mud"), 0.075, 1e-9);
+  EXPECT_NEAR(edge_of(Box{{2, 1, 0.1}}, 5400), 0.25, 1e-9) << "a plate lies on its largest side";
+  EXPECT_NEAR(edge_of(Box{{2, 0.1, 1}}, 5400), 0.025, 1e-9) << "a blade stands on its edge";
+  const Compound both{{{Box{{2, 1, 0.1}}}, {Sphere{0.2}, {0, 0, -0.2}}}};
+  EXPECT_LT(edge_of(both, 5400), edge_of(Box{{2, 1, 0.1}}, 5400)) << "the finest of its pieces";
+}
+
 // ---- worlds
 
 Scene rolling(double spacing, double min_edge) {
@@ -269,7 +296,7 @@ double least_angle(const SurfaceView& surface) {
 
 TEST(Refine, BallRollsAsOnAFineGrid) {
   World fine = test::make_world(rolling(0.05, 0)), refined = test::make_world(rolling(0.8, 0.05));
-  EXPECT_NEAR(refined.refinement().edge, 0.05, 1e-6);
+  EXPECT_NEAR(refined.refinement().edge, 0.1, 1e-6) << "as fine as the ball needs";
   test::run_to(fine, 2), test::run_to(refined, 2);
   const BodyView a = fine.bodies()[0], b = refined.bodies()[0];
   EXPECT_NEAR(b.max_sinkage, a.max_sinkage, 0.05 * a.max_sinkage);
@@ -281,6 +308,70 @@ TEST(Refine, BallRollsAsOnAFineGrid) {
   EXPECT_GT(soil.displaced, 0.01);
   EXPECT_LT(soil.relative_error(), 0.01);
   EXPECT_NEAR(soil.displaced, fine.soil_volume().displaced, 0.05 * soil.displaced);
+}
+
+// The truck of the scenes drives off, and its rut is a fine grid's.
+Scene driving(double spacing, double min_edge, double duration) {
+  Scene scene = *load_scene(std::string(test::source_dir()) + "/scenes/truck.toml");
+  const auto count = [&](double length) { return static_cast<int>(std::lround(length / spacing)) + 1; };
+  scene.duration = duration;
+  scene.terrain = {.shape = GridTerrain{.columns = count(22), .rows = count(4), .spacing = spacing},
+                   .material = "wheat_field",
+                   .refine = {.min_edge = min_edge}};
+  return scene;
+}
+
+TEST(Refine, TruckDrivesAsOnAFineGrid) {
+  World fine = test::make_world(driving(0.025, 0, 3.5)), refined = test::make_world(driving(1, 0.025, 3.5));
+  test::run_to(fine, 3.5), test::run_to(refined, 3.5);
+  const auto deepest = [](const World& world) {
+    double most = 0;
+    for (const BodyView& body : world.bodies()) most = std::max(most, body.max_sinkage);
+    return most;
+  };
+  // Depth and width of the left rut, where front and rear wheels have been.
+  const auto rut = [](const World& world) {
+    double depth = 0, area = 0;
+    int sections = 0;
+    for (double x = -9.5; x < -8.5; x += 0.05, ++sections) {
+      double lowest = 0;
+      for (double y = 0.3; y < 1.3; y += 0.01) {
+        const double sunk = std::max(0.0, -world.ground_height(x, y));
+        lowest = std::max(lowest, sunk), area += 0.01 * sunk;
+      }
+      depth += lowest;
+    }
+    return std::array{depth / sections, area / depth};
+  };
+  const double way = fine.bodies()[0].position.x + 9;
+  ASSERT_GT(way, 2);
+  EXPECT_NEAR(refined.bodies()[0].position.x + 9, way, 0.05 * way);
+  EXPECT_NEAR(refined.bodies()[0].position.y, fine.bodies()[0].position.y, 0.05 * way);
+  EXPECT_NEAR(deepest(refined), deepest(fine), 0.05 * deepest(fine));
+  EXPECT_NEAR(rut(refined)[0], rut(fine)[0], 0.05 * rut(fine)[0]);
+  EXPECT_NEAR(rut(refined)[1], rut(fine)[1], 0.05 * rut(fine)[1]);
+  const RefinementCounts counts = refined.refinement();
+  EXPECT_LT(counts.base_vertices + counts.most, fine.surface().positions.size() / 10);
+}
+
+// Triangles are as fine as the body above them needs.
+TEST(Refine, EachBodyHasItsOwnEdge) {
+  Scene scene = rolling(0.8, 0.05);
+  scene.bodies.push_back({.name = "plate", .shape = Box{{2.4, 2.4, 0.2}}, .mass = 3000, .position = {3, -1.2, 0}});
+  scene.bodies.back().above_ground = true;
+  World world = test::make_world(scene);
+  test::run_to(world, 0.2);
+  const SurfaceView surface = world.surface();
+  const auto finest = [&](double x, double y) {
+    double least = 1e9;
+    for (std::size_t c = 0; c < surface.triangles.size(); c += 3) {
+      const Vec3 a = surface.positions[surface.triangles[c]], b = surface.positions[surface.triangles[c + 1]];
+      if (std::hypot(a.x - x, a.y - y) < 0.6) least = std::min<double>(least, std::hypot(a.x - b.x, a.y - b.y));
+    }
+    return least;
+  };
+  EXPECT_NEAR(finest(world.bodies()[0].position.x, 0.03), 0.1, 0.015);
+  EXPECT_NEAR(finest(3, -1.2), 0.4, 0.06);
 }
 
 TEST(Refine, CraterIsAsOnAFineGrid) {
@@ -315,6 +406,25 @@ TEST(Refine, BudgetIsKeptAndSaidToBeUsedUp) {
   EXPECT_TRUE(told);
   EXPECT_GT(world.refinement().short_steps, 0u);
   EXPECT_TRUE(test::all_finite(world));
+}
+
+// Coarser ground than it wants still carries a wheel, as the same ground without refinement would.
+TEST(Refine, WithoutBudgetWheelsAreCarriedByCoarseTriangles) {
+  double before = 0;
+  for (const std::uint64_t budget : {0, 200, 1500, 200000}) {
+    Scene scene = driving(1, 0.025, 3);
+    scene.terrain.refine.budget = budget;
+    World world = test::make_world(scene);
+    test::run_to(world, 3);
+    double deepest = 0;
+    for (const BodyView& body : world.bodies()) deepest = std::max(deepest, body.max_sinkage);
+    EXPECT_LT(deepest, 0.12) << budget;
+    EXPECT_GT(world.bodies()[0].position.z, 0.75) << budget;
+    EXPECT_GE(deepest, 0.6 * before) << budget;
+    EXPECT_LE(world.refinement().most, budget);
+    EXPECT_EQ(world.refinement().short_steps > 0, budget < 200000) << budget;
+    before = deepest;
+  }
 }
 
 // A ball on a road leaves nothing behind it for which triangles would be worth keeping.

@@ -104,9 +104,10 @@ struct MaterialMap {
 /// New triangles where the ground deforms: as fine as bodies and craters need them, and joined again where the ground
 /// is flat. Triangles are halved along their longest sides, those of a grid into ones of the same shape.
 struct Refinement {
-  double min_edge = 0;      ///< m, no edge of a grid gets shorter; 0: the terrain keeps the triangles it starts with
-  int max_level = 10;       ///< times that an edge may be halved, [0, 16]
-  double curvature = 0.05;  ///< rad, by which a crater may turn from one triangle to the next, > 0
+  double min_edge = 0;     ///< m, no edge of a grid gets shorter; 0: the terrain keeps the triangles it starts with
+  int max_level = 10;      ///< times that an edge may be halved, [0, 16]
+  double curvature = 0.1;  ///< rad, by which a crater may turn from one triangle to the next, > 0
+  double error = 0.04;     ///< share of its sinkage by which ground may keep off a round body, (0, 1]; or `tolerance`
   std::uint64_t budget = 200'000;  ///< most vertices beyond those that the terrain starts with
   double tolerance = 1e-3;         ///< m, by which the surface may move where triangles are joined again, >= 0
 };

@@ -22,16 +22,14 @@ Row row_of(const Vec3d& direction, const Vec3d& arm) {
   return {direction.x, direction.y, direction.z, turn.x, turn.y, turn.z};
 }
 
-double patch(const state::Body& body, const Situation& s) {
-  return std::max<double>(body.patch_width, 0.5 * s.surface.spacing);
-}
+double patch(const state::Body& body) { return std::max(body.patch_width, 0.5 * body.spacing); }
 
 double underside_at(const Contact& c, double rising, double dt) { return c.underside + dt * (rising - c.rise_there); }
 
 laws::Pressure<double> pressure_of(const state::Body& body, const Footing& f, double sinkage, const Situation& s) {
   const laws::Medium& medium = s.media[f.material];
   if (!medium.ground) return {};
-  return laws::ground_pressure<double>(medium, sinkage, f.plastic, patch(body, s), medium.elastic_stiffness);
+  return laws::ground_pressure<double>(medium, sinkage, f.plastic, patch(body), medium.elastic_stiffness);
 }
 
 Contact frozen(const Footing& f, const geometry::Underside& under, const Vec3d& position, const Vec3d& ground,

@@ -75,8 +75,9 @@ std::vector<Footing>::iterator nearest_to(double x, double y, std::vector<Footin
                           [&](const Footing& a, const Footing& b) { return squared(a) < squared(b); });
 }
 
-// Share of a column's distance from the line of touch that it keeps in soft ground.
-constexpr double kRolledAside = 0.5;
+// Share of a column's distance from the line of touch that it keeps in soft ground: a truck's way then depends least on
+// the grid's spacing and on its heading. At 1 wheels that run along the grid are off most, at 0.5 those that cross it.
+constexpr double kRolledAside = 0.75;
 
 // A line of touch from above.
 struct Line {
@@ -141,11 +142,10 @@ double kept_aside(double patch_width, double spacing) {
 
 // Vertices sample the ground too coarsely for a hard ball or wheel on hard ground: it would drop between them. The
 // columns that its line of touch runs through are therefore met on that line instead of at their vertices. Where the
-// ground is so soft that the patch is several columns wide, halfway to it: what rolls still presses the part of a cell
-// that lies before the line, and has left the part behind it. On the line itself a wheel would find the last of its way
-// down done without having pushed forward for it, and roll too easily; at the vertex it would drop whenever it leaves
-// one.
-void meet_on_ridge(const geometry::PosedPiece& piece, double patch_width, const Situation& s,
+// ground is so soft that the patch is several columns wide, nearer to their vertices: on the line itself a wheel would
+// find the last of its way down done without having pushed forward for it, and roll too easily; at the vertex it would
+// drop whenever it leaves one. To count only the part of a cell before the line was tried: wheels sank too deep.
+void meet_on_ridge(const geometry::PosedPiece& piece, const state::Body& body, const Situation& s,
                    Scratch::PerBody& scratch) {
   std::vector<Footing>& footings = scratch.footings;
   const Vec3d middle = 0.5 * (piece.low + piece.high);
@@ -155,15 +155,15 @@ void meet_on_ridge(const geometry::PosedPiece& piece, double patch_width, const 
   const Line line(*ridge);
   if (line.squared < 1e-12) {
     // Of a round patch the width is its radius; a square as large has this side.
-    const double half = 0.5 * s.surface.spacing, side = std::sqrt(std::numbers::pi) * patch_width;
-    const double aside = kept_aside(side, s.surface.spacing);
+    const double half = 0.5 * body.spacing, side = std::sqrt(std::numbers::pi) * body.patch_width;
+    const double aside = kept_aside(side, body.spacing);
     const auto touched = nearest_to(line.x, line.y, footings);
     if (std::abs(touched->x - line.x) <= half && std::abs(touched->y - line.y) <= half)
       meet_at(s, line.x + aside * (touched->x - line.x), line.y + aside * (touched->y - line.y), *touched);
     return;
   }
-  choose_on_line(line, s.surface.spacing, footings, scratch.found, scratch.ring);
-  share_line(line, kept_aside(patch_width, s.surface.spacing), s, footings, scratch.ring);
+  choose_on_line(line, body.spacing, footings, scratch.found, scratch.ring);
+  share_line(line, kept_aside(body.patch_width, body.spacing), s, footings, scratch.ring);
 }
 
 // From `start` over the half-edges to the vertex nearest to x, y.
@@ -278,14 +278,15 @@ void cover(const geometry::PosedSolid& body, double travel, const Situation& s, 
 
 // A body smaller than the cells may be over no vertex: the nearest column is met under its lowest point then, with the
 // area that the body covers.
-void meet_small_body(const geometry::PosedSolid& body, const Situation& s, std::vector<Footing>& footings) {
+void meet_small_body(const geometry::PosedSolid& body, double spacing, const Situation& s,
+                     std::vector<Footing>& footings) {
   for (const geometry::PosedPiece& piece : body.pieces()) {
     const auto over = [&](const Footing& f) { return piece.underside(f.x, f.y).below; };
     if (piece.piece().kind == geometry::Piece::Kind::sphere) continue;  // its ridge is met wherever it is
     if (std::any_of(footings.begin(), footings.end(), over)) continue;
     const Vec3d low = piece.lowest();
     const auto touched = nearest_to(low.x, low.y, footings);
-    if (std::hypot(touched->x - low.x, touched->y - low.y) > s.surface.spacing) continue;
+    if (std::hypot(touched->x - low.x, touched->y - low.y) > spacing) continue;
     // Just inside the outline, where the body is over it.
     const Vec3d middle = 0.5 * (piece.low + piece.high);
     meet_at(s, low.x + 1e-3 * (middle.x - low.x), low.y + 1e-3 * (middle.y - low.y), *touched);
@@ -309,7 +310,7 @@ void take_up_slack(const state::Body& body, const geometry::PosedSolid& posed, c
     f.slack = std::max(0.0, sunk - f.plastic - elastic);
     f.fresh -= f.slack;
   } else {
-    const double width = std::max<double>(body.patch_width, 0.5 * s.surface.spacing);
+    const double width = std::max(body.patch_width, 0.5 * body.spacing);
     const double pressure = std::min(laws::bekker_pressure<double>(medium, sunk, width), mean_pressure);
     f.plastic = std::max(f.plastic, sunk - pressure / medium.elastic_stiffness);
   }
@@ -343,13 +344,13 @@ void gather(const state::Body& body, const Situation& s, Scratch::PerBody& scrat
   if (footings.empty()) return;
   scratch.end.place(*body.solid, body.position + s.dt * body.velocity,
                     math::spun(body.orientation, body.angular_velocity, s.dt), true);
-  cover(scratch.end, reach - 0.5 * s.surface.spacing, s, scratch);
-  for (const geometry::PosedPiece& piece : scratch.end.pieces()) meet_on_ridge(piece, body.patch_width, s, scratch);
-  meet_small_body(scratch.end, s, footings);
+  cover(scratch.end, reach - 0.5 * body.spacing, s, scratch);
+  for (const geometry::PosedPiece& piece : scratch.end.pieces()) meet_on_ridge(piece, body, s, scratch);
+  meet_small_body(scratch.end, body.spacing, s, footings);
   double sum = 0;
   for (const Press& press : scratch.presses) sum += press.pressure;
   const double mean = scratch.presses.empty() ? 0 : sum / static_cast<double>(scratch.presses.size());
-  scratch.ground = across_ground(footings, s.surface.spacing);
+  scratch.ground = across_ground(footings, body.spacing);
   for (Footing& f : footings) take_up_slack(body, scratch.start, s, scratch.presses, mean, f);
 }
 

@@ -71,7 +71,7 @@ double step_reach(const state::Body& body, const Situation& s) {
   const double speed =
       length(body.velocity) + geometry::sweep_speed(*body.solid, body.orientation, body.angular_velocity);
   const double travel = speed * s.dt + length(s.gravity) * s.dt * s.dt;
-  return travel + 0.5 * s.surface.spacing;
+  return travel + 0.5 * body.spacing;
 }
 
 void find_near(state::Body& body, const Situation& s, Scratch::PerBody& scratch) {
@@ -80,7 +80,7 @@ void find_near(state::Body& body, const Situation& s, Scratch::PerBody& scratch)
   if (adaptive && body.near_left > needed) return;
 
   // With the adaptive policy what is found now serves for a few steps more.
-  const double reach = needed + (adaptive ? std::max<double>(0.5 * s.surface.spacing, 3 * needed) : s.ground_moved);
+  const double reach = needed + (adaptive ? std::max<double>(0.5 * body.spacing, 3 * needed) : s.ground_moved);
   bool walked = false;
   if (adaptive && body.last_vertex != kNone) {
     const std::uint32_t below = walk(body, s.surface, body.last_vertex);

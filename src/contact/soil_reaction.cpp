@@ -249,7 +249,7 @@ void meet_soil(state::Body& body, const Situation& s, Scratch::PerBody& scratch,
     // The first pass finds the load without friction; grip then comes from the load of the pass before.
     for (Contact& c : contacts) c.grip = grip_of(body, footings[c.footing], c, s);
     // What the next pass starts from need not be exact.
-    find_balance(balance, (pass + 1 < kPasses ? kRough : kExact) * s.surface.spacing, v);
+    find_balance(balance, (pass + 1 < kPasses ? kRough : kExact) * body.spacing, v);
     for (const Contact& c : contacts) {
       Footing& f = footings[c.footing];
       f.load = push_of(body, f, c, v, s).force;

@@ -38,12 +38,12 @@ class Block {
     }
   }
 
-  // The same for each slot of neighbours that stand alike: merges the rows by j - i.
-  template <class F>
-  void for_each_alike(F f) const {
+  // The same for each slot of neighbours that stand alike: merges the rows by j - i. Ends when `goes_on()` says no.
+  template <class F, class GoesOn>
+  void for_each_alike(F f, GoesOn goes_on) const {
     constexpr std::int64_t kOver = std::numeric_limits<std::int64_t>::max();
     std::array<std::size_t, kLanes> head{};
-    for (;;) {
+    while (goes_on()) {
       std::int64_t step = kOver;
       for (std::uint32_t lane = 0; lane < kLanes; ++lane)
         if (head[lane] < row_[lane].size()) step = std::min(step, step_of(row_[lane][head[lane]], lane));
@@ -82,7 +82,7 @@ struct Layout {
 Layout cheapest(const Block& block) {
   Cost kth, alike;
   block.for_each_kth(std::ref(kth));
-  block.for_each_alike(std::ref(alike));
+  block.for_each_alike(std::ref(alike), [&] { return alike.cost < kth.cost; });
   return alike.cost < kth.cost ? Layout{true, alike.slots} : Layout{false, kth.slots};
 }
 
@@ -100,7 +100,7 @@ void fill(const Block& block, bool alike, const std::vector<std::uint8_t>& mater
     }
     ++slot;
   };
-  alike ? block.for_each_alike(put) : block.for_each_kth(put);
+  alike ? block.for_each_alike(put, [] { return true; }) : block.for_each_kth(put);
   for (std::uint32_t lane = 0; lane < kLanes; ++lane)
     if (material[block.own(lane)] != medium) medium = Bonds::kSeveral;
 }

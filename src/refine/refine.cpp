@@ -17,9 +17,12 @@ constexpr double kBeside = 2.5, kBermWidth = 0.5;
 // so many edges before it is looked at again.
 constexpr double kAheadEdges = 4, kAheadSteps = 4, kSlack = 2;
 // Out of a crater the wanted edge grows from this many radii on, up to the end of what it throws or heaves.
-constexpr float kRim = 1.4f, kGrowth = 2, kCraterEnd = 4;
-// In a step one in so many of the added vertices is looked at, whether it may go; more where the budget is used up.
-constexpr std::uint32_t kShare = 256, kLeast = 64, kShortShare = 8;
+constexpr double kRim = 1.4, kGrowth = 2, kCraterEnd = 4;
+// In a step one in so many of the added vertices is looked at, whether it may go.
+constexpr std::uint32_t kShare = 256, kLeast = 64;
+// When more than this share of the budget is used, what shows least goes first: the tolerance grows up to so many times
+// as large, and so does the number that is looked at.
+constexpr double kPlenty = 0.5, kMostTolerance = 1e4, kMostLooks = 32;
 
 // A face from above.
 struct Disc {
@@ -73,22 +76,28 @@ double distance_to_way(const Vec3d& p, const Vec3d& from, const Vec3d& to) {
   return length(p - from - at * way);
 }
 
+// Of the budget each edge leaves a quarter to those twice as long, which need a quarter of the triangles: however short
+// it gets, there is some for coarser ground. `doubled`: how many times as long as wanted.
+std::uint32_t share_of(std::uint32_t budget, int doubled) {
+  return doubled < 15 ? budget - (budget >> 2 * (doubled + 1)) : budget;
+}
+
 // Halves faces of `faces`, and what comes of them, for as long as they are coarser than `wanted(face)`, m: not at all
-// where that is infinite. False when the budget ended that.
+// where that is infinite. False when `most` added vertices ended that.
 template <class Wanted>
-bool halve_faces(Ground& ground, const Limits& limits, std::vector<std::uint32_t>& faces, Progress& progress,
-                 Wanted wanted) {
+bool halve_faces(Ground& ground, double least, std::uint32_t most, std::vector<std::uint32_t>& faces,
+                 Progress& progress, Wanted wanted) {
   state::Surface& surface = ground.surface;
   const auto squared = [&](std::uint32_t h) { return squared_length(surface, ground.soil, h); };
   while (!faces.empty()) {
     const std::uint32_t face = faces.back();
-    const double edge = std::max(limits.edge, wanted(face));
+    const double edge = std::max(least, wanted(face));
     // The longest side of a right triangle with equal legs, and a little for rounding.
     if (squared(longest_side(surface.mesh, face, squared)) <= 2.002 * edge * edge) {
       faces.pop_back();
       continue;
     }
-    if (surface.bisection.added_count() >= limits.budget) return false;
+    if (surface.bisection.added_count() >= most) return false;
     const std::uint32_t h = longest_ahead(surface.mesh, face, squared), before = surface.mesh.face_count();
     halve_edge(ground, h);
     ++progress.halved;
@@ -97,6 +106,8 @@ bool halve_faces(Ground& ground, const Limits& limits, std::vector<std::uint32_t
   return true;
 }
 
+double fall_of(const Step& step) { return step.gravity * step.dt * step.dt; }
+
 // Half of the width that a body presses; of one that has not touched yet, of what it may.
 double patch_of(const state::Body& body, const geometry::PosedSolid& posed) {
   if (body.patch_width > 0) return body.patch_width;
@@ -104,50 +115,63 @@ double patch_of(const state::Body& body, const geometry::PosedSolid& posed) {
   return 0.25 * std::min(size.x, size.y);
 }
 
-bool refine_for_body(Ground& ground, const geometry::Bvh& bvh, state::Body& body, const Limits& limits,
-                     const Step& step, Progress& progress, Scratch& scratch) {
-  const double edge = limits.edge, slack = kSlack * edge, speed = length(body.velocity);
-  body.refined_left -= geometry::sweep_speed(*body.solid, body.orientation, body.angular_velocity) * step.dt;
-  const Vec3d next = body.position + step.dt * body.velocity;
-  const double falls = step.gravity * step.dt * step.dt;
-  if (distance_to_way(next, body.refined_from, body.refined_to) + falls < body.refined_left) return true;
-
+// The ground that a body comes to in the next steps gets this edge, m, if `most` added vertices are enough.
+bool refine_way(Ground& ground, const geometry::Bvh& bvh, state::Body& body, double edge, std::uint32_t most,
+                const Step& step, Progress& progress, Scratch& scratch) {
+  const double slack = kSlack * edge, speed = length(body.velocity);
   const double ahead = std::max(kAheadEdges * edge, kAheadSteps * speed * step.dt);
   const Vec3d way = speed > 1e-3 * edge ? (ahead / speed) * body.velocity : Vec3d{};
   scratch.posed.place(*body.solid, body.position, body.orientation, true);
   const double beside = slack + kBeside * edge + kBermWidth * patch_of(body, scratch.posed);
-  const Reach reach{scratch.posed, way, beside, slack + edge + kAheadSteps * falls};
+  const Reach reach{scratch.posed, way, beside, slack + edge + kAheadSteps * fall_of(step)};
   scratch.faces.clear();
   state::faces_near(ground.surface, bvh, reach.box(), scratch.faces);
-  const bool whole = halve_faces(ground, limits, scratch.faces, progress, [&](std::uint32_t face) {
-    return reach.meets(disc_of(ground.surface, face)) ? 0.0f : std::numeric_limits<float>::infinity();
+  const bool whole = halve_faces(ground, edge, most, scratch.faces, progress, [&](std::uint32_t face) {
+    return reach.meets(disc_of(ground.surface, face)) ? 0.0 : std::numeric_limits<double>::infinity();
   });
   body.refined_from = body.position, body.refined_to = body.position + way;
-  body.refined_left = whole ? slack : -1;
+  body.refined_left = slack;
   return whole;
 }
 
+// True if the body has the edge it wants.
+bool refine_for_body(Ground& ground, const geometry::Bvh& bvh, state::Body& body, const Limits& limits,
+                     const Step& step, Progress& progress, Scratch& scratch) {
+  body.refined_left -= geometry::sweep_speed(*body.solid, body.orientation, body.angular_velocity) * step.dt;
+  const Vec3d next = body.position + step.dt * body.velocity;
+  if (distance_to_way(next, body.refined_from, body.refined_to) + fall_of(step) >= body.refined_left) {
+    body.spacing = body.edge;
+    for (int doubled = 0;; body.spacing = std::ldexp(body.edge, ++doubled))
+      if (refine_way(ground, bvh, body, body.spacing, share_of(limits.budget, doubled), step, progress, scratch)) break;
+  }
+  return body.spacing <= body.edge;
+}
+
+// True if the zone has the edge it wants.
 bool refine_zone(Ground& ground, const geometry::Bvh& bvh, const Zone& zone, const Limits& limits, Progress& progress,
                  Scratch& scratch) {
-  const float end = kCraterEnd * zone.radius;
+  const auto end = static_cast<float>(kCraterEnd * zone.radius);
   math::Aabb around;
   around.include(Vec3{zone.centre.x - end, zone.centre.y - end, -math::Aabb::kInf});
   around.include(Vec3{zone.centre.x + end, zone.centre.y + end, math::Aabb::kInf});
-  const float inside = std::max(zone.edge, limits.edge);
-  scratch.faces.clear();
-  state::faces_near(ground.surface, bvh, around, scratch.faces);
-  return halve_faces(ground, limits, scratch.faces, progress, [&](std::uint32_t face) {
-    const Disc d = disc_of(ground.surface, face);
-    const float r = (std::hypot(d.x - zone.centre.x, d.y - zone.centre.y) - d.radius) / zone.radius;
-    return inside * std::max(1.0f, 1 + kGrowth * (r - kRim));
-  });
+  for (int doubled = 0;; ++doubled) {
+    const double inside = std::ldexp(std::max(zone.edge, limits.edge), doubled);
+    scratch.faces.clear();
+    state::faces_near(ground.surface, bvh, around, scratch.faces);
+    const auto wanted = [&](std::uint32_t face) {
+      const Disc d = disc_of(ground.surface, face);
+      const double r = (std::hypot(d.x - zone.centre.x, d.y - zone.centre.y) - d.radius) / zone.radius;
+      return inside * std::max(1.0, 1 + kGrowth * (r - kRim));
+    };
+    if (halve_faces(ground, inside, share_of(limits.budget, doubled), scratch.faces, progress, wanted))
+      return doubled == 0;
+  }
 }
 
-bool is_near_body(const Ground& ground, std::uint32_t vertex, std::span<const state::Body> bodies,
-                  const Limits& limits) {
+bool is_near_body(const Ground& ground, std::uint32_t vertex, std::span<const state::Body> bodies) {
   const Vec3 p = ground.surface.position[vertex];
   return std::ranges::any_of(bodies, [&](const state::Body& body) {
-    const double reach = 2 * body.radius + length(body.refined_to - body.refined_from) + 4 * kBeside * limits.edge;
+    const double reach = 2 * body.radius + length(body.refined_to - body.refined_from) + 4 * kBeside * body.spacing;
     return std::abs(p.x - body.position.x) < reach && std::abs(p.y - body.position.y) < reach;
   });
 }
@@ -168,18 +192,20 @@ void forget(std::span<state::Body> bodies, std::uint32_t vertex) {
   }
 }
 
-void join_flat(Ground& ground, std::span<state::Body> bodies, const Limits& limits, bool is_short, Progress& progress) {
+void join_flat(Ground& ground, std::span<state::Body> bodies, const Limits& limits, Progress& progress) {
   state::Surface& surface = ground.surface;
   const std::uint32_t base = surface.bisection.base_vertex_count(), count = surface.mesh.vertex_count() - base;
-  const std::uint32_t looks = std::min(count, kLeast + count / (is_short ? kShortShare : kShare));
-  for (std::uint32_t k = 0; k < looks; ++k) {
+  const double used = static_cast<double>(surface.bisection.added_count()) / std::max(1u, limits.budget);
+  const double need = std::clamp((used - kPlenty) / (share_of(1024, 0) / 1024.0 - kPlenty), 0.0, 1.0);
+  const auto tolerance = static_cast<float>(limits.tolerance * std::pow(kMostTolerance, need));
+  const auto looks = static_cast<std::uint32_t>((kLeast + count / kShare) * (1 + need * (kMostLooks - 1)));
+  for (std::uint32_t k = 0; k < std::min(count, looks); ++k) {
     if (progress.next >= count) progress.next = 0;
     const std::uint32_t vertex = base + progress.next++;
     if (!surface.bisection.can_merge(surface.mesh, vertex)) continue;
-    const float tolerance = is_short ? std::numeric_limits<float>::infinity() : limits.tolerance;
     const double bulge = bulge_at(ground, vertex, tolerance);
     if (bulge > tolerance && !(bulge <= limits.relief_share * relief_at(ground, vertex))) continue;
-    if (!std::isfinite(bulge) || is_near_body(ground, vertex, bodies, limits) || is_in_blast(ground, vertex)) continue;
+    if (!std::isfinite(bulge) || is_near_body(ground, vertex, bodies) || is_in_blast(ground, vertex)) continue;
     join_edge(ground, vertex);
     forget(bodies, vertex);
     ++progress.joined;
@@ -187,23 +213,6 @@ void join_flat(Ground& ground, std::span<state::Body> bodies, const Limits& limi
 }
 
 }  // namespace
-
-float crater_edge(double radius, double depth, double turn) {
-  // A bowl of z = depth (r / radius)^2 turns by 2 depth / radius^2 a metre.
-  return static_cast<float>(turn * radius * radius / (2 * depth));
-}
-
-float contact_edge(const geometry::Solid& solid) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const geometry::Piece& piece : solid.pieces) {
-    geometry::PosedPiece posed;
-    posed.place(piece, {}, math::matrix_of(Quat{}), false);
-    const Vec3d size = posed.high - posed.low;
-    const bool is_ball = piece.kind == geometry::Piece::Kind::sphere;
-    least = std::min(least, is_ball ? size.x / 24 : std::min({size.x, size.y, size.z}) / 6);
-  }
-  return static_cast<float>(least);
-}
 
 Outcome update(Ground& ground, const geometry::Bvh& bvh, std::span<state::Body> bodies, std::span<const Zone> zones,
                const Limits& limits, const Step& step, bool may_join, Progress& progress, Scratch& scratch) {
@@ -217,7 +226,7 @@ Outcome update(Ground& ground, const geometry::Bvh& bvh, std::span<state::Body> 
   sort_rows(ground.particles, ground.soil);
   if (!whole) ++progress.short_steps;
   progress.most = std::max(progress.most, ground.surface.bisection.added_count());
-  if (may_join) join_flat(ground, bodies, limits, !whole, progress);
+  if (may_join) join_flat(ground, bodies, limits, progress);
   return {ground.particles.size() != rows, !whole};
 }
 

@@ -24,7 +24,8 @@ namespace divot::refine {
 /// How fine the ground may get. Edges are legs of right triangles on a grid; elsewhere shorter sides may be a little
 /// longer or shorter.
 struct Limits {
-  float edge = 0;              ///< m, no triangle is halved that is as fine as this
+  double edge = 0;             ///< m, no triangle is halved that is as fine as this
+  double base = 0;             ///< m, of the triangles that the terrain started with
   float tolerance = 1e-3f;     ///< m, by which the surface may move where triangles are joined again
   float relief_share = 0.01f;  ///< or this share of what the ground there was deformed by
   std::uint32_t budget = 0;    ///< most vertices beyond those that the terrain started with
@@ -32,18 +33,10 @@ struct Limits {
 
 /// Ground that a bomb is about to deform.
 struct Zone {
-  Vec3 centre;       ///< m, relative to the surface's origin; the height does not matter
-  float radius = 0;  ///< m, of the crater
-  float edge = 0;    ///< m, wanted in it; further out the wanted edge grows
+  Vec3 centre;        ///< m, relative to the surface's origin; the height does not matter
+  double radius = 0;  ///< m, of the crater
+  double edge = 0;    ///< m, wanted in it; further out the wanted edge grows
 };
-
-/// Longest edge, m, that shows a crater by turning no further than `turn`, rad, from one triangle to the next. `radius`
-/// and `depth` in m.
-float crater_edge(double radius, double depth, double turn);
-
-/// Longest edge, m, that shows where a body touches: a twelfth of a ball's radius, a sixth of the least width of
-/// others.
-float contact_edge(const geometry::Solid& solid);
 
 /// The step that is about to be made.
 struct Step {
@@ -56,7 +49,7 @@ struct Progress {
   std::uint32_t next = 0;                ///< added vertex to be looked at next, counted from the first
   std::uint64_t halved = 0, joined = 0;  ///< vertices that came and went so far
   std::uint32_t most = 0;                ///< added vertices at once
-  std::uint64_t short_steps = 0;         ///< steps in which the budget was used up
+  std::uint64_t short_steps = 0;         ///< steps in which ground was coarser than wanted, for lack of budget
 };
 
 /// Arrays the stage needs; they grow and stay.
@@ -68,13 +61,14 @@ struct Scratch {
 /// What a step has changed.
 struct Outcome {
   bool rows = false;           ///< rows of particles: their indices are other ones
-  bool out_of_budget = false;  ///< triangles stayed coarser than they should be
+  bool out_of_budget = false;  ///< somewhere triangles are coarser than they should be
 };
 
 /// Halves triangles in the way of bodies (Body::refined_from) and in `zones`; then, if it `may_join`, looks at some of
 /// those that were halved before and joins them where the ground is flat enough. What is awake, or near a body, stays.
-/// Where the budget is used up, ground far from bodies is joined whatever it looks like. [O(bodies that have moved on
-/// by their reach * triangles there + added vertices / 256)]
+/// As the budget is used up, more is flat enough. Where it does not suffice, the ground gets edges of twice the length
+/// that was wanted, or four times and so on, for which a share of the budget is kept: Body::spacing says which.
+/// [O(bodies that have moved on by their reach * triangles there + added vertices / 256)]
 Outcome update(Ground& ground, const geometry::Bvh& bvh, std::span<state::Body> bodies, std::span<const Zone> zones,
                const Limits& limits, const Step& step, bool may_join, Progress& progress, Scratch& scratch);
 

@@ -148,6 +148,12 @@ void describe_refine(Visitor& v, Refinement& refine) {
               .range = above(0, 1),
               .meaning = "by which a crater may turn from one triangle to the next"},
              refine.curvature);
+    v.number(
+        {.name = "error",
+         .range = above(0, 1),
+         .meaning = "share of its sinkage, if more than `tolerance`, by which the ground may keep off a round body "
+                    "between vertices"},
+        refine.error);
     v.whole({.name = "budget",
              .range = between(0, kMostAdded),
              .meaning = "most vertices beyond those that the terrain starts with"},

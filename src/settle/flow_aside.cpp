@@ -67,7 +67,7 @@ struct Patch {
   }
 };
 
-Patch patch_of(const Ground& ground, std::span<const std::uint32_t> carried) {
+Patch patch_of(const Ground& ground, double spacing, std::span<const std::uint32_t> carried) {
   const auto area = [&](std::uint32_t i) { return static_cast<double>(ground.soil.area[ground.particles.column[i]]); };
   double total = 0;
   Flat sum;
@@ -80,7 +80,7 @@ Patch patch_of(const Ground& ground, std::span<const std::uint32_t> carried) {
     xx += area(i) * r.x * r.x, xy += area(i) * r.x * r.y, yy += area(i) * r.y * r.y;
   }
   // Every column is as wide as a spacing.
-  const double own = static_cast<double>(ground.surface.spacing) * ground.surface.spacing / 12;
+  const double own = spacing * spacing / 12;
   patch.l11 = std::sqrt(xx / total + own);
   patch.l21 = xy / total / patch.l11;
   patch.l22 = std::sqrt(std::max(own, yy / total + own - patch.l21 * patch.l21));
@@ -236,8 +236,8 @@ float lay_beside(Ground& ground, const Sectors& room, const Sectors& volume, con
 
 void flow_from_under(const state::Body& body, std::span<const std::uint32_t> carried,
                      std::span<const laws::Medium> media, const Step& step, Ground& ground, FlowScratch& scratch) {
-  const Patch patch = patch_of(ground, carried);
-  const double slope = kBermWidth * body.patch_width + 1.5 * ground.surface.spacing;
+  const Patch patch = patch_of(ground, body.spacing, carried);
+  const double slope = kBermWidth * body.patch_width + 1.5 * body.spacing;
   const double heap = heap_length(body, carried, media, step.dt, ground.particles);
   find_beside(ground, carried, slope + heap, scratch);
   const Flat going = unit({body.velocity.x, body.velocity.y});

@@ -29,6 +29,8 @@ struct Body {
   Quat orientation;
 
   // refine/
+  double edge = 0;     ///< m, of the finest triangles that it wants under it
+  double spacing = 1;  ///< m, of those it has; of the terrain where nothing is refined
   Vec3d refined_from,
       refined_to;            ///< m: on this way, and as far beside it as `refined_left`, the ground is fine enough
   double refined_left = -1;  ///< m; negative: look again

@@ -73,9 +73,9 @@ void archive(Archive& a, T& c) {
 template <class Archive, Is<state::Body> T>
 void archive(Archive& a, T& b) {
   a(b.name, b.given_shape, b.given_center, b.given_inertia, b.mass, b.restitution, b.friction, b.position, b.velocity,
-    b.angular_velocity, b.orientation, b.refined_from, b.refined_to, b.refined_left, b.near, b.near_left, b.last_vertex,
-    b.touching, b.patch_width, b.weight_share, b.impact_speed, b.held_impulse, b.last_impulse, b.sinkage, b.max_sinkage,
-    b.off_terrain);
+    b.angular_velocity, b.orientation, b.edge, b.spacing, b.refined_from, b.refined_to, b.refined_left, b.near,
+    b.near_left, b.last_vertex, b.touching, b.patch_width, b.weight_share, b.impact_speed, b.held_impulse,
+    b.last_impulse, b.sinkage, b.max_sinkage, b.off_terrain);
 }
 template <class Archive, Is<contact::Press> T>
 void archive(Archive& a, T& p) {
@@ -136,9 +136,9 @@ void archive_triangles(Archive& a, Impl& w) {
     position.assign(surface.position.begin() + first, surface.position.end());
     material.assign(surface.material.begin() + first, surface.material.end());
   }
-  a(triangles, position, material, surface.strayed, w.refine_limits.edge, w.refine_limits.tolerance,
-    w.refine_limits.budget, w.refine_progress.next, w.refine_progress.halved, w.refine_progress.joined,
-    w.refine_progress.most, w.refine_progress.short_steps);
+  a(triangles, position, material, surface.strayed, w.refine_limits.edge, w.refine_limits.base,
+    w.refine_limits.tolerance, w.refine_limits.budget, w.refine_progress.next, w.refine_progress.halved,
+    w.refine_progress.joined, w.refine_progress.most, w.refine_progress.short_steps);
   surface.bisection.for_each_value([&](auto& value) { a(value); });
   if constexpr (Archive::kReads) {
     const std::size_t vertices = base + position.size();
@@ -146,7 +146,7 @@ void archive_triangles(Archive& a, Impl& w) {
     if (material.size() != position.size() || !std::ranges::all_of(material, good) ||
         !std::ranges::all_of(position, [](const Vec3& p) { return is_finite(p); }) || vertices >= kNone ||
         surface.bisection.base_vertex_count() != base || surface.bisection.base_face_count() != faces ||
-        !(w.refine_limits.edge > 0))
+        !(w.refine_limits.edge > 0) || !std::isfinite(w.refine_limits.base))
       return a.fail();
     auto mesh = geometry::HalfEdgeMesh::build(static_cast<std::uint32_t>(vertices), std::move(triangles));
     if (!mesh || !surface.bisection.fits(*mesh)) return a.fail();
@@ -270,7 +270,8 @@ bool holds_together(const state::Blast& b, std::size_t columns) {
 bool holds_together(const state::Body& b, std::size_t vertices) {
   return is_finite(b.position) && is_finite(b.velocity) && is_finite(b.angular_velocity) && b.mass > 0 &&
          std::isfinite(b.mass) && below(b.near, vertices) && ascends(b.near) &&
-         (b.last_vertex < vertices || b.last_vertex == kNone);
+         (b.last_vertex < vertices || b.last_vertex == kNone) && b.spacing > 0 && std::isfinite(b.spacing) &&
+         b.edge >= 0;
 }
 
 bool holds_together(const std::vector<contact::Press>& presses, const state::Surface& surface) {
@@ -381,7 +382,8 @@ Result<World> World::restore(std::string_view bytes, const Scene& scene, std::sh
   // Boxes anew: which places they hold does not depend on how they came to be.
   const auto [steps, refits, rebuilds] = std::tuple(w.tree.steps, w.tree.refits, w.tree.rebuilds);
   w.reserve_budget();
-  w.tree.margin = kBoxMargin * w.surface.spacing;
+  w.tree.margin =
+      kBoxMargin * (w.surface.bisection.started() ? static_cast<float>(w.refine_limits.base) : w.surface.spacing);
   refit::build(w.tree, w.surface, *w.jobs);
   w.tree.steps = steps, w.tree.refits = refits, w.tree.rebuilds = rebuilds;
   return world;

@@ -102,12 +102,6 @@ Result<World> World::create(const Scene& scene, std::shared_ptr<const Jobs> jobs
   impl->lowest = math::Aabb::kInf;
   for (const Vec3& p : impl->surface.position) impl->lowest = std::min<double>(impl->lowest, p.z);
   impl->dirty_chunk.assign(impl->surface.position.size() / kDirtyChunk + 1, false);
-  impl->plan_refinement();
-  if (impl->surface.bisection.started()) {
-    auto material_at = terrain::material_between(scene, impl->materials, impl->surface);
-    if (!material_at) return tl::unexpected(material_at.error());
-    impl->material_at = std::move(*material_at);
-  }
   impl->list_triangles();
   if (impl->surface.rigid.any()) impl->rigid.add(impl->surface.rigid, impl->surface.position, impl->media.front());
   impl->tree.margin = kBoxMargin * impl->surface.spacing;
@@ -123,6 +117,13 @@ Result<World> World::create(const Scene& scene, std::shared_ptr<const Jobs> jobs
     for (const Joint& joint : scene.joints) keep_errors(world.add_joint(joint));
   for (const Bomb& bomb : scene.bombs) keep_errors(world.add_bomb(bomb));
   if (!errors.empty()) return tl::unexpected(std::move(errors));
+  World::Impl& w = *world.impl_;
+  w.plan_refinement();
+  if (w.surface.bisection.started()) {
+    auto material_at = terrain::material_between(scene, w.materials, w.surface);
+    if (!material_at) return tl::unexpected(material_at.error());
+    w.material_at = std::move(*material_at);
+  }
   return world;
 }
 
@@ -147,6 +148,7 @@ Result<BodyId> World::spawn(const BodySettings& settings) {
   body.position = placed.origin - math::rotate(body.orientation, body.solid->origin);
   body.velocity = settings.velocity;
   body.angular_velocity = settings.angular_velocity;
+  impl_->plan_refinement(body);
   impl_->rigid.add(body);
   impl_->bodies.push_back(std::move(body));
   impl_->contact_scratch.bodies.resize(impl_->bodies.size());

@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "laws/blast.h"
 #include "laws/crater.h"
-#include "world/place.h"
+#include "refine/edges.h"
 #include "world/state.h"
 
 namespace divot {
@@ -34,8 +35,39 @@ refine::Zone zone_of(const World::Impl& w, const Bomb& bomb) {
   if (!ground.found) return {};
   const laws::CraterSize size = crater_of(w, bomb.yield, burst.z - ground.position.z);
   if (!(size.radius > 0) || !(size.depth > 0)) return {};
-  return {ground.position, static_cast<float>(size.radius),
-          refine::crater_edge(size.radius, size.depth, w.scene.terrain.refine.curvature)};
+  return {ground.position, size.radius, refine::crater_edge(size.radius, size.depth, w.scene.terrain.refine.curvature)};
+}
+
+// Mass that each body carries, kg: joints share it out among all that they hold together.
+std::vector<double> carried_mass(const World::Impl& w) {
+  std::vector<std::uint32_t> group(w.bodies.size());
+  std::iota(group.begin(), group.end(), 0u);
+  for (const state::HeldJoint& joint : w.joints) {
+    if (joint.first == kNone) continue;
+    const std::uint32_t a = group[joint.first], b = group[joint.second];
+    std::replace(group.begin(), group.end(), std::max(a, b), std::min(a, b));
+  }
+  std::vector<double> mass(w.bodies.size()), count(w.bodies.size()), share(w.bodies.size());
+  for (std::size_t i = 0; i < group.size(); ++i) mass[group[i]] += w.bodies[i].mass, count[group[i]] += 1;
+  for (std::size_t i = 0; i < group.size(); ++i) share[i] = mass[group[i]] / count[group[i]];
+  return share;
+}
+
+// The edge that shows where a body touches, m.
+double wanted_edge(const World::Impl& w, const state::Body& body, double mass) {
+  const auto x = static_cast<float>(body.position.x), y = static_cast<float>(body.position.y);
+  const state::SurfacePoint below = state::surface_at(w.surface, w.tree.bvh, x, y, w.region_scratch);
+  const laws::Medium& medium = w.media[below.found ? w.surface.material[below.vertex] : 0];
+  const Refinement& refine = w.scene.terrain.refine;
+  return refine::contact_edge(*body.solid, body.orientation, mass * length(w.scene.gravity), medium,
+                              {refine.tolerance, refine.error});
+}
+
+// The next one below of those that halving gives, from the terrain's to the scene's finest, m.
+double halved_edge(const refine::Limits& limits, double wanted) {
+  double edge = limits.base;
+  while (edge > wanted * (1 + 1e-6) && edge > limits.edge * (1 + 1e-6)) edge *= 0.5;
+  return edge;
 }
 
 // Keeps a list of ids below `count` from growing beyond them.
@@ -51,13 +83,13 @@ void World::Impl::plan_refinement() {
   const Refinement& wanted = scene.terrain.refine;
   if (!(wanted.min_edge > 0)) return;
   double finest = std::numeric_limits<double>::infinity();
-  for (const BodySettings& body : scene.bodies)
-    if (const auto placed = place::prepare(*this, body); placed)  // what is wrong with it, spawn() will say
-      finest = std::min<double>(finest, refine::contact_edge(*placed->solid));
+  const std::vector<double> mass = carried_mass(*this);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    finest = std::min(finest, bodies[i].edge = wanted_edge(*this, bodies[i], mass[i]));
   for (const Bomb& bomb : scene.bombs) {
     const laws::CraterSize size = crater_of(*this, bomb.yield, 0);
     if (size.radius > 0 && size.depth > 0)
-      finest = std::min<double>(finest, refine::crater_edge(size.radius, size.depth, wanted.curvature));
+      finest = std::min(finest, refine::crater_edge(size.radius, size.depth, wanted.curvature));
   }
   // Nothing is known of what will come: as fine as may be.
   if (!std::isfinite(finest)) finest = wanted.min_edge;
@@ -65,12 +97,19 @@ void World::Impl::plan_refinement() {
   int level = std::clamp(static_cast<int>(std::ceil(std::log2(base / finest) - 1e-6)), 0, wanted.max_level);
   while (level > 0 && std::ldexp(base, -level) < wanted.min_edge * (1 - 1e-6)) --level;
   if (level == 0) return;
-  surface.spacing = static_cast<float>(std::ldexp(base, -level));
   surface.bisection.start(surface.mesh);
-  refine_limits = {.edge = surface.spacing,
+  refine_limits = {.edge = std::ldexp(base, -level),
+                   .base = base,
                    .tolerance = static_cast<float>(wanted.tolerance),
                    .budget = static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted.budget, kNone / 8))};
+  surface.spacing = static_cast<float>(refine_limits.edge);
+  for (state::Body& body : bodies) body.edge = halved_edge(refine_limits, body.edge);
   reserve_budget();
+}
+
+void World::Impl::plan_refinement(state::Body& body) const {
+  body.spacing = surface.spacing;
+  if (surface.bisection.started()) body.edge = halved_edge(refine_limits, wanted_edge(*this, body, body.mass));
 }
 
 void World::Impl::reserve_budget() {

@@ -98,9 +98,10 @@ struct World::Impl {
     return timers.time(static_cast<std::size_t>(stage), work);
   }
 
-  void plan_refinement();  ///< how fine the scene's bodies and bombs want the ground
-  void reserve_budget();   ///< views of the ground stay where they are, however many triangles come
-  void list_triangles();   ///< after faces came or went
+  void plan_refinement();                         ///< how fine the scene's bodies and bombs want the ground
+  void plan_refinement(state::Body& body) const;  ///< how fine one wants it that comes later
+  void reserve_budget();  ///< views of the ground stay where they are, however many triangles come
+  void list_triangles();  ///< after faces came or went
   void mark_dirty(std::uint32_t vertex);
 
   // The stages, with their inputs and outputs taken from the state (stages.cpp).
