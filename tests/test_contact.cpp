@@ -94,6 +94,36 @@ TEST(ContactSinkage, GrowsWithTheDrop) {
   }
 }
 
+TEST(ContactSinkage, OfADroppedBodyIsTheSameInStepsOfAnyLength) {
+  const std::pair<const char*, Shape> falls[] = {{"dry_sand", Sphere{0.3}},
+                                                 {"mud", Sphere{0.3}},
+                                                 {"sandy_loam", Box{{0.5, 0.6, 0.4}}},
+                                                 {"snow", Capsule{0.2, 0.5}}};
+  for (const auto& [soil, shape] : falls) {
+    double deepest[2];
+    for (const int fine : {0, 1}) {
+      Scene scene = ball_scene(soil, 0.05, 0.3, 250, 41);
+      scene.bodies[0].shape = shape, scene.bodies[0].position.z = 2, scene.dt = fine ? 1.0 / 960 : 1.0 / 60;
+      World world = make_world(scene);
+      run_to(world, 1.2);
+      deepest[fine] = world.bodies()[0].max_sinkage;
+    }
+    EXPECT_NEAR(deepest[0], deepest[1], 0.05 * deepest[1]) << soil;
+  }
+}
+
+// A particle's layer, and its bonds, would carry a small light ball like a net.
+TEST(ContactSinkage, OfADroppedBallGoesWithItsSize) {
+  const auto depth_over_diameter = [](double radius) {
+    Scene scene = ball_scene("dry_sand", radius / 5, radius, 2000 * 4.19 * radius * radius * radius, 41);
+    scene.bodies[0].position.z = 20 * radius, scene.dt = 1.0 / 240;
+    World world = make_world(scene);
+    run_to(world, std::sqrt(40 * radius / 9.81) + 0.3);
+    return world.bodies()[0].max_sinkage / radius;
+  };
+  EXPECT_NEAR(depth_over_diameter(0.02) / depth_over_diameter(0.32), 1, 0.15);
+}
+
 TEST(ContactSinkage, MudYieldsAndAsphaltBarely) {
   World mud = make_world(ball_scene("mud", 0.1, 0.5, 1500)),
         asphalt = make_world(ball_scene("asphalt", 0.1, 0.5, 1500));

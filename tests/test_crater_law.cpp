@@ -122,14 +122,6 @@ TEST(LawsCrater, BuriedChargesAsMeasured) {
   }
 }
 
-TEST(LawsCrater, DeepChargesPushUpRatherThanThrow) {
-  const Medium loam = soil(0.4, 0.2);
-  const CraterSize at = scaled_crater(1, 0, loam, kGravity), deep = scaled_crater(1, -9, loam, kGravity);
-  EXPECT_EQ(at.lip_share, at.thrown_share);
-  EXPECT_EQ(deep.thrown_share, at.thrown_share);
-  EXPECT_GT(deep.lip_share, 2 * deep.thrown_share);
-}
-
 // What is thrown from deep falls back into large craters and clears small ones, and nothing falls where nothing weighs.
 TEST(LawsCrater, LargeDeepCratersAreFilled) {
   const Medium alluvium = soil(0.297, 0.149, 1700);
@@ -156,7 +148,7 @@ TEST(LawsCrater, ProfileIsThePressuresExcess) {
 }
 
 TEST(LawsCrater, WhatCannotBeCompactedLeaves) {
-  const CraterSize size{.radius = 4, .depth = 2, .thrown_share = 0.185, .lip_share = 0.185};
+  const CraterSize size{.radius = 4, .depth = 2, .lip_share = 0.185};
   const double pi = std::numbers::pi, volume = 0.45 * pi * 4 * 4 * 2, around = 2.0 / 3 * pi * 10 * 10 * 10;
   EXPECT_EQ(leaving_share(size, 0, 0.03), 0.185) << "soil takes it all";
   EXPECT_NEAR(leaving_share(size, 0, 0.01), 1 - 0.01 * around / volume, 1e-12) << "rock some of it";

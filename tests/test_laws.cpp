@@ -229,6 +229,36 @@ TEST(LawsSoil, TheElasticBranchLeadsWhereTheCurveIsSteeper) {
   }
 }
 
+TEST(LawsSoil, WavesCarryNoMoreThanQuickStrength) {
+  Medium s = soil(0, 2e5, 1.1, 4e6);
+  s.ground_damping = 1e4;
+  const auto at = [&](double z, double plastic, double speed) {
+    return ground_pressure<double>(s, z, plastic, 1, 4e6, speed);
+  };
+  const double curve = bekker_pressure<double>(s, 0.1, 1);
+  for (const double plastic : {0.0, 0.099}) {
+    const double at_rest = at(0.1, plastic, 0).value;
+    EXPECT_NEAR(at(0.1, plastic, 0.1).value, at_rest + 1e3, 1e-6);
+    EXPECT_FLOAT_EQ(static_cast<float>(at(0.1, plastic, 0.1).damping), 1e4f);
+    EXPECT_EQ(at(0.1, plastic, -0.1).value, at_rest) << "none on the way up";
+    EXPECT_DOUBLE_EQ(at(0.1, plastic, 100).value, kQuickStrength * curve);
+    EXPECT_EQ(at(0.1, plastic, 100).damping, 0);
+    EXPECT_NEAR(at(0.1, plastic, 100).slope, (at(0.1001, plastic, 100).value - at(0.0999, plastic, 100).value) / 2e-4,
+                1e2);
+  }
+}
+
+TEST(LawsSoil, ThrownSoilPushesBackWithTheSquareOfTheSpeed) {
+  Medium s;
+  s.density = 1600, s.tan_friction = 0.6f;
+  EXPECT_NEAR(throwing_pressure<double>(s, 3).value, 8.0 / 3 * 0.6 * 1600 * 9, 1e-2);
+  EXPECT_NEAR(throwing_pressure<double>(s, 3).damping,
+              (throwing_pressure<double>(s, 3.001).value - throwing_pressure<double>(s, 2.999).value) / 2e-3, 1);
+  EXPECT_EQ(throwing_pressure<double>(s, -3).value, 0);
+  s.tan_friction = 0;
+  EXPECT_NEAR(throwing_pressure<double>(s, 2).value, 0.5 * 1600 * 4, 1e-3);
+}
+
 TEST(LawsSoil, ShearStrengthIsMohrCoulombs) {
   const Medium s = soil(0, 1e5, 1, 1e6);
   EXPECT_FLOAT_EQ(shear_strength(s, 0.0f), 100);

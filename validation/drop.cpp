@@ -23,7 +23,7 @@ constexpr double kMost = 1.2;                   // m, ground on each side of the
 Result<double> depth(double height, double density, double diameter) {
   const double radius = diameter / 2, spacing = diameter / 12;
   Scene scene = flat("dry_sand", 2 * static_cast<int>(12 * kMost) + 1, spacing);
-  scene.dt = 1.0 / 1000;
+  scene.dt = 1.0 / 250;
   scene.bodies = {{.name = "ball",
                    .shape = Sphere{.radius = radius},
                    .mass = density * 4.0 / 3 * std::numbers::pi * radius * radius * radius,

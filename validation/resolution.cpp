@@ -71,6 +71,17 @@ Result<double> dropped(double spacing, double dt) {
   return world->bodies().front().max_sinkage;
 }
 
+// Other shapes, 300 kg, in other soils, from 1 m.
+Result<double> fallen(const Shape& shape, const char* soil, double spacing, double dt) {
+  Scene scene = ball(spacing, dt, 2, 2);
+  scene.terrain.material = soil;
+  auto& body = scene.bodies.front();
+  body.shape = shape, body.mass = 300, body.position.z = 1;
+  const auto world = run(scene, 2);
+  if (!world) return tl::unexpected(world.error());
+  return world->bodies().front().max_sinkage;
+}
+
 // How far it rolls in two seconds.
 Result<double> rolling(double spacing, double dt) {
   Scene scene = ball(spacing, dt, 2, 14);
@@ -92,6 +103,22 @@ Result<std::vector<Experiment>> resolution(const Places&) {
       {"lip_height", "lip height", 0.297, step, [](double s, double dt) { return crater(s, dt, &Crater::lip_height); }},
       {"resting", "sinkage of a ball at rest", 0.05, step, &resting},
       {"dropped", "sinkage of a ball dropped from 2 m", 0.05, step, &dropped},
+      {"dropped_box", "sinkage of a box dropped from 1 m on sandy loam", 0.05, step,
+       [](double s, double dt) {
+         return fallen(Box{{0.6, 0.8, 0.4}}, "sandy_loam", s, dt);
+       }},
+      {"dropped_cylinder", "sinkage of a lying cylinder dropped from 1 m on wheat field", 0.05, step,
+       [](double s, double dt) {
+         return fallen(Cylinder{0.4, 0.8}, "wheat_field", s, dt);
+       }},
+      {"dropped_capsule", "sinkage of a lying capsule dropped from 1 m on snow", 0.05, step,
+       [](double s, double dt) {
+         return fallen(Capsule{0.3, 0.6}, "snow", s, dt);
+       }},
+      {"dropped_cone", "sinkage of a cone dropped from 1 m on its base on mud", 0.05, step,
+       [](double s, double dt) {
+         return fallen(Cone{0.4, 0.6}, "mud", s, dt);
+       }},
       {"rolling", "way of a ball that rolls for 2 s", 0.1, step, &rolling},
   };
   std::vector<Experiment> experiments;

@@ -12,10 +12,6 @@ namespace {
 // infinitely.
 constexpr double kSteepestFlank = 0.25;  // |vertical part of the normal|
 
-// Damping answers a body with at most this many times the soil's static pressure. Twice lets a ball that is set down
-// stop where it is carried, to a few percent, and a falling one go as deep as energy over strength says, H^(1/(n+2)).
-constexpr double kMostDamping = 2;
-
 // Speed along `direction` of the point of the body at `arm`.
 Row row_of(const Vec3d& direction, const Vec3d& arm) {
   const Vec3d turn = cross(arm, direction);
@@ -26,10 +22,20 @@ double patch(const state::Body& body) { return std::max(body.patch_width, 0.5 * 
 
 double underside_at(const Contact& c, double rising, double dt) { return c.underside + dt * (rising - c.rise_there); }
 
-laws::Pressure<double> pressure_of(const state::Body& body, const Footing& f, double sinkage, const Situation& s) {
+// Of soil that the column's underside presses at `speed`, m/s.
+laws::Pressure<double> pressure_of(const state::Body& body, const Footing& f, double sinkage, double speed,
+                                   const Situation& s) {
   const laws::Medium& medium = s.media[f.material];
-  if (!medium.ground) return {};
-  return laws::ground_pressure<double>(medium, sinkage, f.plastic, patch(body), medium.elastic_stiffness);
+  return laws::ground_pressure<double>(medium, sinkage, f.plastic, patch(body), medium.elastic_stiffness, speed);
+}
+
+// A sheet of particles without ground: their own inertia, and their bonds. A particle that a body carries already moves
+// with it; others are met at their own speed.
+Push push_of_sheet(const state::Body& body, const Footing& f, const Contact& c, double rising, const Situation& s) {
+  const Row now = math::row(body.velocity, body.angular_velocity);
+  const double inertia = f.mass / s.dt, met = f.carried ? dot6(c.rise, now) : f.speed;
+  const Push push{f.pull + inertia * (met - rising), inertia};
+  return push.force > 0 ? push : Push{};  // it does not pull
 }
 
 Contact frozen(const Footing& f, const geometry::Underside& under, const Vec3d& position, const Vec3d& ground,
@@ -76,26 +82,17 @@ Push push_of(const state::Body& body, const Footing& f, const Contact& c, const 
   const double rising = dot6(c.rise, v), height = underside_at(c, rising, s.dt);
   if (height >= f.height) return {};
   const laws::Medium& medium = s.media[f.material];
-  const auto pressure = pressure_of(body, f, f.fresh - height, s);
-  // The particle's own inertia and what cohesion does to it come on top of the soil's pressure. One that a body carries
-  // already moves with it; others are met at their own speed.
-  const Row now{body.velocity.x,         body.velocity.y,         body.velocity.z,
-                body.angular_velocity.x, body.angular_velocity.y, body.angular_velocity.z};
-  const double inertia = f.mass / s.dt, met = f.carried ? dot6(c.rise, now) : f.speed;
-  Push push{pressure.value * f.area + f.pull + inertia * (met - rising), pressure.slope * f.area * s.dt + inertia};
-  // Soil under a load that comes down radiates waves: without that, a ball set down gently would sink as if it were
-  // dropped. A load that only moves along, slower than waves, radiates none. Waves carry no more than the soil's
-  // strength allows.
-  const double lifting = dot6(c.lift, v), speed = std::min(-rising, -lifting);
-  if (speed > 0 && medium.ground) {
-    const double damping = medium.ground_damping * speed, most = kMostDamping * pressure.value;
-    push.force += std::min(damping, most) * f.area;
-    if (damping > most)
-      push.per_rising += kMostDamping * pressure.slope * s.dt * f.area;
-    else
-      (rising > lifting ? push.per_rising : push.per_lifting) += medium.ground_damping * f.area;
-  }
-  return push.force > 0 ? push : Push{};  // soil does not pull
+  if (!medium.ground) return push_of_sheet(body, f, c, rising, s);
+  // Bekker's pressure, as it was measured, has in it what holds soil together at the patch's edge: bonds do not count.
+  // A load that only moves along, slower than waves, radiates none.
+  const double lifting = dot6(c.lift, v);
+  const auto pressure = pressure_of(body, f, f.fresh - height, std::min(-rising, -lifting), s);
+  // Only what yields is thrown out of the way.
+  const auto throwing =
+      pressure.yields ? laws::throwing_pressure<double>(medium, -rising / c.slope) : laws::Pressure<double>{};
+  Push push{(pressure.value + throwing.value) * f.area, (pressure.slope * s.dt + throwing.damping / c.slope) * f.area};
+  (rising > lifting ? push.per_rising : push.per_lifting) += pressure.damping * f.area;
+  return push;
 }
 
 Shear shear_of(const laws::Medium& medium, const Footing& f, const Contact& c, const std::array<double, 2>& slip,
@@ -128,7 +125,7 @@ double grip_of(const state::Body& body, const Footing& f, const Contact& c, cons
 Answer answer_of(const state::Body& body, const Footing& f, const Contact& c, const Row& v, const Situation& s) {
   const laws::Medium& medium = s.media[f.material];
   const double sinkage = f.fresh - underside_at(c, dot6(c.rise, v), s.dt);
-  const auto pressure = pressure_of(body, f, sinkage, s);
+  const auto pressure = medium.ground ? pressure_of(body, f, sinkage, 0, s) : laws::Pressure<double>{};
   Answer answer{.plastic = f.plastic, .pressure = pressure.value};
   if (pressure.yields) answer.plastic = std::max(f.plastic, sinkage - pressure.value / medium.elastic_stiffness);
 

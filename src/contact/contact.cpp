@@ -36,6 +36,7 @@ void leave_ground(state::Body& body, const std::optional<Row>& impulse, const Sc
                   Scratch::PerBody& scratch) {
   if (impulse) answer_again(body, before, s, scratch);
   expect(body, impulse);
+  body.velocity += math::linear(scratch.gain), body.angular_velocity += math::angular(scratch.gain);
   std::swap(scratch.last, scratch.presses);
   record_presses(body, scratch);
   const double sweep = geometry::sweep_speed(*body.solid, body.orientation, body.angular_velocity);

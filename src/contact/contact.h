@@ -102,6 +102,12 @@ struct Scratch {
     std::vector<Wall> walls;
     std::vector<Guide> guides;
     std::vector<Press> presses, last;
+    struct Start {
+      double height = 0;  ///< m
+      Vec3d shear;        ///< m
+    };
+    std::vector<Start> at_start;  ///< [footing] of a step that is met in parts, else empty
+    Row gain{};  ///< m/s, rad/s: velocity at the end of such a step over the mean one with which the body is moved
   };
   std::vector<PerBody> bodies;
   struct Pose {

@@ -7,6 +7,7 @@
 
 #include "contact/column_load.h"
 #include "contact/near.h"
+#include "contact/rim_shear.h"
 
 namespace divot::contact {
 namespace {
@@ -19,8 +20,14 @@ constexpr double kGuide = 10;
 
 // A body that starts at rest on the ground is set down in this time, s: its weight comes onto the soil bit by bit. All
 // of it at once makes a heavy ball sink half as deep again as Bekker's pressure carries it; half the time still a
-// quarter. It comes and ends smoothly: one that grew evenly would still be going down when it is all there.
-constexpr double kSetDown = 1.5;
+// quarter. It comes and ends smoothly: one that grew evenly would still be going down when it is all there. What lowers
+// it slows it down at a rate of kLowering, 1/s, and lets go once it goes down by no more than kLowered, m/s.
+constexpr double kSetDown = 1.5, kLowering = 8, kLowered = 0.01;
+
+// An impact is met in parts of the step, in each of which the soil takes at most this share of the speed: the balance
+// at the end of a longer one would stop a body before it is where the soil can. Parts are no shorter than 1/kMostParts.
+constexpr double kMostTaken = 0.025;
+constexpr int kMostParts = 64;
 constexpr int kPasses = 3, kIterations = 40, kHalvings = 12;
 // Shares of the spacing by which Newton's last step in a pass may move the body.
 constexpr double kRough = 1e-5, kExact = 1e-8;
@@ -220,16 +227,27 @@ bool touches_roundly(const state::Body& body) {
   return std::abs(piece.kind == Kind::cone ? axes[2].z : axes[2].y) > kUpright;
 }
 
-}  // namespace
+// The share of its weight that a body has, from 0 to 1: less than all of it while it is set down. Then it is slowed on
+// its way into the ground.
+double set_down(state::Body& body, const Vec3d& ground, double dt) {
+  if (body.weight_share < 1) {
+    const Vec3d up = ground * (1 / length(ground));
+    const double sinking = body.touching ? std::max(0.0, -dot(body.velocity, up)) : 0;
+    body.velocity += sinking * (1 - 1 / (1 + kLowering * dt)) * up;
+    // All but let go, until it rests.
+    body.weight_share =
+        std::min(sinking > kLowered ? std::nextafter(1.0, 0.0) : 1.0, body.weight_share + dt / kSetDown);
+  }
+  return body.weight_share * body.weight_share * (3 - 2 * body.weight_share);
+}
 
-void meet_soil(state::Body& body, const Situation& s, Scratch::PerBody& scratch, Resistance& resistance) {
+// The velocity at which the body is in balance with the soil after s.dt. `weight`: share of gravity.
+Row find_velocity(const state::Body& body, double weight, const Situation& s, Scratch::PerBody& scratch,
+                  Resistance& resistance) {
   std::vector<Footing>& footings = scratch.footings;
   std::vector<Contact>& contacts = scratch.contacts;
   resistance = {inertia_of(body), body.held_impulse};
-  body.weight_share = std::min(1.0, body.weight_share + s.dt / kSetDown);
-  const double weight = body.weight_share * body.weight_share * (3 - 2 * body.weight_share);
-  const Vec3d before = body.velocity, falling = before + s.dt * weight * s.gravity, spin = body.angular_velocity;
-  Row start = math::row(falling, spin);
+  Row start = math::row(body.velocity + s.dt * weight * s.gravity, body.angular_velocity);
   if (body.held_impulse != Row{}) {
     Matrix6 inertia = resistance.whole;
     Row change = body.held_impulse;
@@ -238,14 +256,12 @@ void meet_soil(state::Body& body, const Situation& s, Scratch::PerBody& scratch,
   }
   // What carries a chassis would press its wheel deep into the ground without the soil: then the velocity it has is
   // nearer to the one it will have, and with it the geometry.
-  Row v = body.held_impulse == Row{} ? start : math::row(before, spin);
+  Row v = body.held_impulse == Row{} ? start : math::row(body.velocity, body.angular_velocity);
   Balance balance{body, footings, contacts, scratch.walls, s, start, resistance.whole, scratch.guides};
   for (int pass = 0; pass < kPasses; ++pass) {
     freeze_geometry(body, {body.position, body.orientation}, v, s, scratch);
-    if (contacts.empty()) {
-      v = start;
-      break;
-    }
+    if (contacts.empty()) return start;
+    if (pass == 0) limit_to_rim(contacts, v, s.dt, footings);
     // The first pass finds the load without friction; grip then comes from the load of the pass before.
     for (Contact& c : contacts) c.grip = grip_of(body, footings[c.footing], c, s);
     // What the next pass starts from need not be exact.
@@ -257,14 +273,76 @@ void meet_soil(state::Body& body, const Situation& s, Scratch::PerBody& scratch,
     }
   }
   for (const Contact& c : contacts) footings[c.footing].answer = answer_of(body, footings[c.footing], c, v, s);
-  if (!contacts.empty()) {
-    for (const Guide& guide : balance.guides)
-      add_scaled(resistance.steady, guide.line, balance.weight_of(guide) * (guide.speed - dot6(guide.line, v)));
-    balance.guides = {};
-    balance.missing(v, &resistance.whole);
+  for (const Guide& guide : balance.guides)
+    add_scaled(resistance.steady, guide.line, balance.weight_of(guide) * (guide.speed - dot6(guide.line, v)));
+  balance.guides = {};
+  balance.missing(v, &resistance.whole);
+  return v;
+}
+
+// Whether the soil takes so much of the speed that the step is too long to see where. Bodies that others or joints hold
+// are met in one part: those know only whole steps.
+bool is_impact(const state::Body& body, const Row& v, double weight, const Situation& s,
+               const Scratch::PerBody& scratch, double speed) {
+  if (scratch.contacts.empty() || !scratch.guides.empty() || body.held_impulse != Row{}) return false;
+  if (speed < length(s.gravity) * s.dt) return false;
+  const double taken = length(math::linear(v) - body.velocity - s.dt * weight * s.gravity);
+  return taken > kMostTaken * speed + length(s.gravity) * s.dt;  // what it takes of gravity is no impact
+}
+
+// The body moves on by a part of the step, and the soil remembers what it did.
+void move_part(state::Body& body, const Situation& s, Scratch::PerBody& scratch) {
+  body.position += s.dt * body.velocity;
+  body.orientation = math::spun(body.orientation, body.angular_velocity, s.dt);
+  scratch.end.place(*body.solid, body.position, body.orientation);
+  Patch patch;
+  for (const Contact& c : scratch.contacts) {
+    Footing& f = scratch.footings[c.footing];
+    const geometry::Underside under = scratch.end.underside(f.x, f.y);
+    if (!under.below || under.height >= f.height) continue;
+    patch.add(f.arm_x - body.position.x, f.arm_y - body.position.y, f.area);
+    f.plastic = f.answer.plastic, f.shear = f.answer.shear;
+    const double elastic = f.answer.pressure / s.media[f.material].elastic_stiffness;
+    f.fresh -= std::max(0.0, f.fresh - under.height - f.plastic - elastic);
+    f.height = under.height, f.carried = true;
+    body.touching = true;
   }
-  // A body that bounces leaves the soil: joints must not be held against it.
-  if (rebound(body, footings, contacts, v, before, s)) resistance.whole = balance.inertia;
+  body.patch_width = patch.width(touches_roundly(body));
+}
+
+}  // namespace
+
+void meet_soil(state::Body& body, const Situation& s, Scratch::PerBody& scratch, Resistance& resistance) {
+  const double weight = set_down(body, scratch.ground, s.dt), speed = length(body.velocity);
+  const Scratch::Pose before{body.position, body.orientation};
+  Situation part = s;
+  Row way{};
+  scratch.at_start.clear();
+  for (double left = s.dt;;) {
+    const Row v = find_velocity(body, weight, part, scratch, resistance);
+    if (part.dt > s.dt / kMostParts && is_impact(body, v, weight, part, scratch, speed)) {
+      part.dt = 0.5 * part.dt;
+      continue;
+    }
+    // A body that bounces leaves the soil: joints must not be held against it.
+    const Vec3d arrived = body.velocity;
+    if (rebound(body, scratch.footings, scratch.contacts, v, arrived, part)) resistance.whole = inertia_of(body);
+    left -= part.dt;
+    add_scaled(way, math::row(body.velocity, body.angular_velocity), part.dt);
+    if (left <= 0) break;
+    if (scratch.at_start.empty())
+      for (const Footing& f : scratch.footings) scratch.at_start.push_back({f.height, f.shear});
+    move_part(body, part, scratch);
+  }
+  scratch.gain = {};
+  if (scratch.at_start.empty()) return;
+  // Over the whole step the body goes at its mean velocity, and has its last one then.
+  for (std::size_t k = 0; k < scratch.footings.size(); ++k)
+    scratch.footings[k].height = scratch.at_start[k].height, scratch.footings[k].shear = scratch.at_start[k].shear;
+  body.position = before.position, body.orientation = before.orientation;
+  const Row last = math::row(body.velocity, body.angular_velocity);
+  body.velocity = math::linear(way) * (1 / s.dt), body.angular_velocity = math::angular(way) * (1 / s.dt);
+  scratch.gain = moved(last, math::row(body.velocity, body.angular_velocity), -1);
 }
 
 void answer_again(const state::Body& body, const Scratch::Pose& before, const Situation& s, Scratch::PerBody& scratch) {

@@ -17,7 +17,7 @@ struct Sizes {
   std::vector<laws::CraterSize> of;  // [material]
   std::vector<double> leaves;        // [material] share of its volume that does not stay below it
   double largest = 0;                // m, radius
-  bool heaves = false;               // some soil is pushed up around the crater
+  bool heaves = false;               // some soil cannot be compacted as much as it sinks
 };
 
 Sizes crater_sizes(const Burst& burst, std::span<const laws::Medium> media) {
@@ -29,7 +29,7 @@ Sizes crater_sizes(const Burst& burst, std::span<const laws::Medium> media) {
     sizes.of.push_back(size);
     sizes.leaves.push_back(leaves);
     sizes.largest = std::max(sizes.largest, size.radius);
-    sizes.heaves |= leaves > size.thrown_share;
+    sizes.heaves |= leaves > size.lip_share;
   }
   return sizes;
 }
@@ -155,8 +155,8 @@ void push_scaled(const Burst& given, state::Blast& blast, state::Surface& surfac
       blast.column.push_back(column);
       blast.push.push_back(static_cast<float>(deep / (blast.pulse * blast.pulse)));
       blast.thrown.push_back(static_cast<float>(leaves));
-      thrown += size.thrown_share * deep * soil.area[column];
-      heaved += (leaves - size.thrown_share) * deep * soil.area[column];
+      thrown += size.lip_share * deep * soil.area[column];
+      heaved += (leaves - size.lip_share) * deep * soil.area[column];
       continue;
     }
     const double end = edge.radius(t);

@@ -73,9 +73,9 @@ CraterSize scaled_crater(double yield, double height, const Medium& soil, double
     // A charge that touches the ground has its centre a charge's radius up: only what is well above that is height.
     const double h = height * height / (height + charge_radius(yield)) / surface;
     if (h >= kDepthEnds) return {};
-    const double lip = std::min(soil.ejecta_share * (1 + kScoured * smooth(h / kScourHeight)), 1.0);
+    const double lip = soil.ejecta_share * (1 + kScoured * smooth(h / kScourHeight));
     return {surface * std::pow(1 - h / kRadiusEnds, kRadiusExponent),
-            surface * shape * std::pow(1 - h / kDepthEnds, kDepthExponent), lip, lip};
+            surface * shape * std::pow(1 - h / kDepthEnds, kDepthExponent), std::min(lip, 1.0)};
   }
   const double size = std::cbrt(1000 * yield), light = surface_radius(yield, soil.blast_strength);
   const double whole = kBrokenSphere * std::sqrt(size * light / kBrokenAt) * (surface / light), s = buried / whole;
@@ -86,7 +86,7 @@ CraterSize scaled_crater(double yield, double height, const Medium& soil, double
   const double depth = shape * radius / (1 + std::pow(slow, kFallsBack));
   const double deep = smooth((s - kShallow) / (kDeep - kShallow));
   const double lip = soil.ejecta_share + std::max(0.0, kDeepLip - soil.ejecta_share) * deep;
-  return {radius, depth, soil.ejecta_share, lip};
+  return {radius, depth, lip};
 }
 
 double crater_profile(double radius, double above, double crater_radius) {

@@ -8,8 +8,7 @@ namespace divot::laws {
 struct CraterSize {
   double radius = 0;  ///< m, where the ground begins to fail; 0: the charge is too high or too deep to leave a crater
   double depth = 0;   ///< m, at ground zero
-  double thrown_share = 0;  ///< of the crater's volume that lies around it as ejecta
-  double lip_share = 0;     ///< that, and what a buried charge pushes up around it
+  double lip_share = 0;  ///< of the crater's volume that is thrown out or pushed up around it
 };
 
 /// Crater of `yield` t of TNT, > 0, whose centre is `height` m above the ground, negative: buried. `gravity` in m/s^2,

@@ -156,6 +156,20 @@ Result<void> check_underside(const World::Impl& w, const BodySettings& body, con
                .expected = "a place above it, or position = [x, y] for on the ground"});
 }
 
+// Its weight must not come at once onto one whose own comes bit by bit.
+bool stands_on_one_set_down(const World::Impl& w, const BodySettings& body, const Placed& placed, double gap) {
+  Quat orientation;
+  const Vec3d center = center_at(body, *placed.solid, placed.origin, orientation);
+  geometry::PosedSolid upper, lower;
+  upper.place(*placed.solid, center, orientation);
+  return std::any_of(w.bodies.begin(), w.bodies.end(), [&](const state::Body& other) {
+    if (other.weight_share > 0 || length(other.position - center) > other.radius + placed.solid->radius + gap)
+      return false;
+    lower.place(*other.solid, other.position, other.orientation);
+    return std::abs(upper.low().z - lower.high().z) < gap && lower.over(center.x, center.y, 0);
+  });
+}
+
 }  // namespace
 
 bool embody(state::Body& body) {
@@ -194,8 +208,9 @@ std::optional<double> lift(const World::Impl& w, const BodySettings& body, const
 
 bool is_set_down(const World::Impl& w, const BodySettings& body, const Placed& placed) {
   if (length(body.velocity) > 0 || length(body.angular_velocity) > 0) return false;
+  const double gap = 0.01 * placed.solid->radius;
   const auto touching = lift(w, body, placed);
-  return touching && placed.origin.z - *touching < 0.01 * placed.solid->radius;
+  return (touching && placed.origin.z - *touching < gap) || stands_on_one_set_down(w, body, placed, gap);
 }
 
 Result<void> check_place(const World::Impl& w, const BodySettings& body, const Placed& placed) {
