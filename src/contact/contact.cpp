@@ -49,11 +49,44 @@ bool pressed_before(const std::vector<Press>& last, std::uint32_t vertex) {
   return at != last.end() && at->vertex == vertex;
 }
 
-void wake_pressed(const Scratch::PerBody& scratch, const state::Surface& surface, std::vector<std::uint32_t>& wake) {
-  for (const Press& press : scratch.presses) {
-    wake.push_back(press.vertex);
-    if (!pressed_before(scratch.last, press.vertex))
-      surface.mesh.for_each_neighbour(press.vertex, [&](std::uint32_t u) { wake.push_back(u); });
+// A body that wakes something wakes so many rings of vertices round all that it presses: what depends on the set of
+// particles is dear to make anew, and a body that rolls would change the set in every step.
+constexpr int kWokenRings = 3;
+
+bool is_awake(const Situation& s, std::uint32_t vertex) {
+  const std::uint32_t column = s.surface.column[vertex], i = column == kNone ? kNone : s.soil.particle[column];
+  return i != kNone && (s.particles.hold[i] == Hold::free || s.particles.hold[i] == Hold::carried);
+}
+
+// What is pressed has to be awake, and what lies next to where it was not pressed before.
+bool must_wake(const Scratch::PerBody& scratch, const Situation& s) {
+  return std::any_of(scratch.presses.begin(), scratch.presses.end(), [&](const Press& press) {
+    bool awake = is_awake(s, press.vertex);
+    if (awake && !pressed_before(scratch.last, press.vertex))
+      s.surface.mesh.for_each_neighbour(press.vertex, [&](std::uint32_t u) { awake &= is_awake(s, u); });
+    return !awake;
+  });
+}
+
+void wake_pressed(Scratch::PerBody& scratch, const Situation& s, std::vector<std::uint32_t>& wake) {
+  if (!must_wake(scratch, s)) return;
+  auto &previous = scratch.previous, &ring = scratch.ring, &next = scratch.next;
+  const auto has = [](const std::vector<std::uint32_t>& list, std::uint32_t u) {
+    return std::binary_search(list.begin(), list.end(), u);
+  };
+  previous.clear(), ring.clear();
+  for (const Press& press : scratch.presses) ring.push_back(press.vertex);
+  wake.insert(wake.end(), ring.begin(), ring.end());
+  for (int k = 0; k < kWokenRings; ++k) {
+    next.clear();
+    for (const std::uint32_t v : ring)
+      s.surface.mesh.for_each_neighbour(v, [&](std::uint32_t u) {
+        if (!has(ring, u) && !has(previous, u)) next.push_back(u);
+      });
+    std::sort(next.begin(), next.end());
+    next.erase(std::unique(next.begin(), next.end()), next.end());
+    wake.insert(wake.end(), next.begin(), next.end());
+    std::swap(previous, ring), std::swap(ring, next);
   }
 }
 
@@ -126,7 +159,7 @@ void move_bodies(std::span<state::Body> bodies, std::span<state::HeldJoint> join
       leave_ground(bodies[i], rigid.impulse(i), scratch.before[i], s, scratch.bodies[i]);
   };
   jobs.for_ranges(bodies.size(), 4, std::ref(leave));
-  for (const Scratch::PerBody& own : scratch.bodies) wake_pressed(own, s.surface, wake);
+  for (Scratch::PerBody& own : scratch.bodies) wake_pressed(own, s, wake);
 }
 
 void carry(std::span<state::Body> bodies, state::Particles& particles, state::Soil& soil, const state::Surface& surface,

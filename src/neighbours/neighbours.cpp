@@ -19,8 +19,9 @@ float distance_squared(const state::Particles& p, std::size_t i, std::size_t j) 
   return (dx * dx + dy * dy) + dz * dz;
 }
 
-// Could two particles have come nearer to each other by more than the skin since the rows were built? Only motion
-// against each other counts: what all have in common, half the extent of their displacements, is taken off first.
+// Could two particles have come nearer to each other, seen from above, by more than the skin since the rows were built?
+// Only motion against each other counts: what all have in common, half the extent of their displacements, is taken off
+// first.
 bool has_drifted(const state::Particles& p, Index& index, float skin, const Jobs& jobs) {
   const std::size_t parts = (p.size() + kDriftPart - 1) / kDriftPart;
   index.drift.assign(parts, {});
@@ -44,13 +45,12 @@ bool has_drifted(const state::Particles& p, Index& index, float skin, const Jobs
       };
       extent(p.x.data(), index.x.data(), moved.low.x, moved.high.x);
       extent(p.y.data(), index.y.data(), moved.low.y, moved.high.y);
-      extent(p.z.data(), index.z.data(), moved.low.z, moved.high.z);
     }
   };
   jobs.for_ranges(parts, 1, std::ref(measure));
   math::Aabb all;
   for (const math::Aabb& moved : index.drift) all.include(moved);
-  return p.size() > 0 && length(all.high - all.low) > skin;
+  return p.size() > 0 && std::hypot(all.high.x - all.low.x, all.high.y - all.low.y) > skin;
 }
 
 bool is_due(const state::Particles& p, Index& index, const Reach& reach, bool particles_changed, const Jobs& jobs) {
@@ -130,12 +130,13 @@ void rebuild(const state::Particles& p, state::Bonds& bonds, Index& index, const
   std::swap(index.old_vertex, index.vertex);
   std::swap(index.old_bonds, bonds);
   index.vertex = p.vertex;
-  index.x = p.x, index.y = p.y, index.z = p.z;
+  // Seen from above: what a body presses down may then go as deep as it wants before rows have to be made anew.
+  index.x = p.x, index.y = p.y, index.level.assign(p.size(), 0.0f);
   if (reach.structure == Neighbours::kd_tree) {
-    index.kd_tree.build(p.x, p.y, p.z);
+    index.kd_tree.build(p.x, p.y, index.level);
     index.kd_tree.rows(radius, index.rows, jobs);
   } else {
-    index.grid.build(p.x, p.y, p.z);
+    index.grid.build(p.x, p.y, index.level);
     index.grid.rows(radius, index.rows, jobs);
   }
   make_blocks(index.rows, p.material, index.slots, bonds, jobs);

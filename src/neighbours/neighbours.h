@@ -31,7 +31,8 @@ struct Index {
   geometry::KdTree kd_tree;
   geometry::ColumnGrid grid;
   geometry::Rows rows;
-  std::vector<float> x, y, z;             ///< [particle] where it was when rows were built, m
+  std::vector<float> x, y;                ///< [particle] where it was when rows were built, m
+  std::vector<float> level;               ///< [particle] 0
   std::vector<std::uint32_t> vertex;      ///< [particle] of the rows, ascending
   std::vector<std::uint32_t> old_vertex;  ///< the same of the rows before
   state::Bonds old_bonds;

@@ -15,6 +15,9 @@ constexpr std::size_t kGrain = 2048, kBlockGrain = 256, kPart = 1 << 14;
 // Rings cost as much as a step without them: they are made once particles have stayed the same for so many steps.
 constexpr int kSettledSteps = 2;
 
+// Who is still waits for others for such a share of that time, as the set of particles is dear to change.
+constexpr int kPatience = 4;
+
 // Of numbers that are not negative, whose bits are in the same order.
 void raise(std::atomic<std::uint32_t>& most, float to) {
   const auto bits = std::bit_cast<std::uint32_t>(to);
@@ -34,6 +37,7 @@ struct Mover {
   void operator()(std::size_t begin, std::size_t end) {
     const state::Particles& p = ground.particles;
     float most = 0, most_free = 0;  // m^2
+    const int late = std::min(stillness.steps + stillness.steps / kPatience, 0xffff);
     bool still = false;
     for (std::size_t i = begin; i < end; ++i) {
       s.dx[i] = s.dy[i] = s.dz[i] = 0, s.moved[i] = 0;
@@ -42,7 +46,7 @@ struct Mover {
       most = std::max(most, squared);
       if (p.hold[i] != Hold::free) continue;
       most_free = std::max(most_free, squared);
-      still |= p.still_steps[i] >= stillness.steps;
+      still |= p.still_steps[i] >= late;
     }
     raise(furthest, std::sqrt(most)), raise(furthest_free, std::sqrt(most_free));
     if (still) sleepy = true;

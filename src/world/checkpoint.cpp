@@ -200,8 +200,8 @@ void archive(Archive& a, T& w) {
   archive_touched(a, w);
   w.particles.for_each_array([&](auto& array) { a(array); });
   a(w.bonds, w.least_mass, w.wake, w.kicks, w.moved.distance, w.moved.free_distance);
-  a(w.neighbours.vertex, w.neighbours.x, w.neighbours.y, w.neighbours.z, w.neighbours.steps_since_build,
-    w.neighbours.rebuilds, w.neighbours.missed_pairs, w.tree.steps, w.tree.refits, w.tree.rebuilds);
+  a(w.neighbours.vertex, w.neighbours.x, w.neighbours.y, w.neighbours.steps_since_build, w.neighbours.rebuilds,
+    w.neighbours.missed_pairs, w.tree.steps, w.tree.refits, w.tree.rebuilds);
   archive_contact(a, w);
 }
 
@@ -258,7 +258,7 @@ bool holds_together(const state::Bonds& b, const neighbours::Index& index, std::
   return b.block_count() == blocks && b.first[0] == 0 && std::ranges::is_sorted(b.first) &&
          all_of_size(std::size_t{b.first.back()} * kLanes, b.neighbour, b.rest_length) &&
          all_of_size(blocks, b.medium) && below(b.neighbour, b.count) &&
-         all_of_size(b.count, index.vertex, index.x, index.y, index.z) && ascends(index.vertex) &&
+         all_of_size(b.count, index.vertex, index.x, index.y) && ascends(index.vertex) &&
          std::ranges::all_of(b.medium, [&](std::uint8_t m) { return m < media || m == state::Bonds::kSeveral; });
 }
 
