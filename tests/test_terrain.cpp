@@ -215,6 +215,54 @@ TEST_F(Terrain, RandomHolesLeaveAWalkableSurface) {
   }
 }
 
+// A grid's mesh stores nothing of what its numbering says: it must be that of its triangles, edited or not.
+TEST_F(Terrain, GridsMeshIsThatOfItsTriangles) {
+  std::mt19937 random(11);
+  for (int round = 0; round < 60; ++round) {
+    const GridLayout layout{2 + static_cast<std::uint32_t>(random() % 80),
+                            2 + static_cast<std::uint32_t>(random() % 80)};
+    const auto count = layout.columns * layout.rows;
+    const auto triangles = terrain::triangulate(layout, std::vector<std::uint8_t>(count));
+    auto implied = geometry::HalfEdgeMesh::of_grid(layout, triangles);
+    auto stored = *geometry::HalfEdgeMesh::build(count, triangles);
+    const auto fan_of = [](const geometry::HalfEdgeMesh& mesh, std::uint32_t v) {
+      std::vector<std::uint32_t> fan;
+      mesh.for_each_outgoing(v, [&](std::uint32_t h) { fan.push_back(h); });
+      return fan;
+    };
+    const auto expect_same = [&] {
+      ASSERT_EQ(implied.half_edge_count(), stored.half_edge_count());
+      ASSERT_EQ(implied.vertex_count(), stored.vertex_count());
+      for (std::uint32_t h = 0; h < stored.half_edge_count(); ++h) {
+        ASSERT_EQ(implied.origin(h), stored.origin(h)) << h;
+        ASSERT_EQ(implied.twin(h), stored.twin(h)) << h;
+      }
+      for (std::uint32_t v = 0; v < stored.vertex_count(); ++v) {
+        ASSERT_EQ(implied.outgoing(v), stored.outgoing(v)) << v;
+        ASSERT_EQ(fan_of(implied, v), fan_of(stored, v)) << v;
+      }
+    };
+    expect_same();
+    for (int edit = 0; edit < 30; ++edit) {
+      const auto h = static_cast<std::uint32_t>(random() % stored.half_edge_count());
+      switch (random() % 3) {
+        case 0:
+          ASSERT_EQ(implied.flip_edge(h), stored.flip_edge(h));
+          break;
+        case 1:
+          ASSERT_EQ(implied.collapse_edge(h), stored.collapse_edge(h));
+          break;
+        default: {
+          ASSERT_EQ(implied.split_edge(h), stored.split_edge(h));
+          if (random() % 2 == 0) implied.unsplit_edge(h), stored.unsplit_edge(h);
+        }
+      }
+    }
+    expect_same();
+    if (HasFatalFailure()) return;
+  }
+}
+
 TEST_F(Terrain, OneHoleTakesFourCellsDownToATriangleEach) {
   const GridLayout layout{5, 5};
   std::vector<std::uint8_t> holes(25);

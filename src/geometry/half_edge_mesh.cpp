@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/assert.h"
+
 namespace divot::geometry {
 namespace {
 
@@ -88,19 +90,20 @@ Result<HalfEdgeMesh> HalfEdgeMesh::build(std::uint32_t vertex_count, std::vector
   if (Error error = check_triangles(vertex_count, triangles); !error.problem.empty()) return fail(std::move(error));
   HalfEdgeMesh mesh;
   mesh.origin_ = std::move(triangles);
-  mesh.twin_.assign(mesh.origin_.size(), kNone);
-  mesh.outgoing_.assign(vertex_count, kNone);
-  Error error = match_twins(vertex_count, mesh.origin_, mesh.twin_, vertex_text);
+  Indices twin(mesh.origin_.size(), kNone), outgoing(vertex_count, kNone);
+  Error error = match_twins(vertex_count, mesh.origin_, twin, vertex_text);
   if (!error.problem.empty()) return fail(std::move(error));
 
   // The lowest half-edge of each vertex, then those at a boundary; and how many there are.
   std::vector<std::uint32_t> valence(vertex_count, 0);
   for (std::uint32_t h = mesh.half_edge_count(); h-- > 0;) {
-    mesh.outgoing_[mesh.origin_[h]] = h;
+    outgoing[mesh.origin_[h]] = h;
     ++valence[mesh.origin_[h]];
   }
   for (std::uint32_t h = mesh.half_edge_count(); h-- > 0;)
-    if (mesh.twin_[h] == kNone) mesh.outgoing_[mesh.origin_[h]] = h;
+    if (twin[h] == kNone) outgoing[mesh.origin_[h]] = h;
+  mesh.twin_.assign(std::move(twin));
+  mesh.outgoing_.assign(std::move(outgoing));
 
   // Rotation that misses a half-edge means a second fan.
   for (std::uint32_t v = 0; v < vertex_count; ++v) {
@@ -108,9 +111,19 @@ Result<HalfEdgeMesh> HalfEdgeMesh::build(std::uint32_t vertex_count, std::vector
     mesh.for_each_outgoing(v, [&](std::uint32_t) { ++met; });
     if (met != valence[v])
       return fail(problem(fmt::format("only {} of the {} triangles at vertex {} are joined by edges, from {} on", met,
-                                      valence[v], v, triangle_text(mesh.origin_, face_of(mesh.outgoing_[v]))),
+                                      valence[v], v, triangle_text(mesh.origin_, face_of(mesh.outgoing(v)))),
                           "one fan round each vertex; duplicate a vertex where two parts touch"));
   }
+  return mesh;
+}
+
+HalfEdgeMesh HalfEdgeMesh::of_grid(const GridLayout& layout, std::vector<std::uint32_t> triangles) {
+  DIVOT_ASSERT(triangles.size() == 6 * std::size_t{layout.cell_count()});
+  HalfEdgeMesh mesh;
+  mesh.origin_ = std::move(triangles);
+  mesh.grid_ = layout;
+  mesh.twin_.imply(mesh.origin_.size());
+  mesh.outgoing_.imply(std::size_t{layout.columns} * layout.rows);
   return mesh;
 }
 
@@ -121,12 +134,12 @@ std::string HalfEdgeMesh::validate() const {
 
   // The triangles make a surface, and twins and outgoing half-edges must be those of that surface.
   for (std::uint32_t h = 0; h < half_edge_count(); ++h)
-    if (twin_[h] != fresh->twin_[h])
-      return fmt::format("half-edge {} ({} to {}) has twin {} instead of {}", h, origin(h), target(h), twin_[h],
-                         fresh->twin_[h]);
+    if (twin(h) != fresh->twin(h))
+      return fmt::format("half-edge {} ({} to {}) has twin {} instead of {}", h, origin(h), target(h), twin(h),
+                         fresh->twin(h));
   for (std::uint32_t v = 0; v < vertex_count(); ++v)
-    if (outgoing_[v] != fresh->outgoing_[v])
-      return fmt::format("vertex {} has outgoing half-edge {} instead of {}", v, outgoing_[v], fresh->outgoing_[v]);
+    if (outgoing(v) != fresh->outgoing(v))
+      return fmt::format("vertex {} has outgoing half-edge {} instead of {}", v, outgoing(v), fresh->outgoing(v));
   return {};
 }
 

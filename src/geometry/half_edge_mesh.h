@@ -10,6 +10,8 @@
 
 #include "divot/errors.h"
 #include "divot/ids.h"
+#include "geometry/grid_layout.h"
+#include "geometry/paged_ids.h"
 
 namespace divot::geometry {
 
@@ -21,6 +23,8 @@ namespace divot::geometry {
 ///
 /// Twins and outgoing half-edges depend on the triangles alone, never on the edits that led to them, so a saved mesh
 /// is its triangles: build() gives back the same walking order.
+///
+/// On a grid they follow from its numbering, and are stored only round where triangles were edited.
 class HalfEdgeMesh {
  public:
   /// No vertices and no faces.
@@ -32,6 +36,9 @@ class HalfEdgeMesh {
   /// `vertex_text` says what errors call the ends of a bad edge; empty: their ids.
   static Result<HalfEdgeMesh> build(std::uint32_t vertex_count, std::vector<std::uint32_t> triangles,
                                     const std::function<std::string(std::uint32_t)>& vertex_text = {});
+
+  /// The same for the `triangles` of a grid without holes, numbered as GridLayout says. [O(1)]
+  static HalfEdgeMesh of_grid(const GridLayout& layout, std::vector<std::uint32_t> triangles);
 
   /// Memory for a mesh of so many: edits up to there leave triangles() where it is.
   void reserve(std::size_t vertices, std::size_t faces);
@@ -53,19 +60,24 @@ class HalfEdgeMesh {
   /// Vertex where `h` ends.
   std::uint32_t target(std::uint32_t h) const { return origin_[next(h)]; }
   /// The same edge seen from the face on its other side; kNone at a boundary.
-  std::uint32_t twin(std::uint32_t h) const { return twin_[h]; }
+  std::uint32_t twin(std::uint32_t h) const { return twin_.follows_rule(h) ? grid_.twin(h) : twin_[h]; }
   /// A half-edge that starts at `v`: the boundary one of a vertex at the boundary (counter-clockwise rotation from it
   /// meets the whole fan), else the lowest; kNone for a vertex without faces.
-  std::uint32_t outgoing(std::uint32_t v) const { return outgoing_[v]; }
+  std::uint32_t outgoing(std::uint32_t v) const { return outgoing_.follows_rule(v) ? grid_.outgoing(v) : outgoing_[v]; }
   /// Has faces, but not all the way round. [O(1)]
-  bool is_boundary(std::uint32_t v) const { return outgoing_[v] != kNone && twin_[outgoing_[v]] == kNone; }
+  bool is_boundary(std::uint32_t v) const {
+    if (outgoing_.follows_rule(v)) return grid_.is_border(grid_.node(v));
+    return outgoing(v) != kNone && twin(outgoing(v)) == kNone;
+  }
 
   /// Calls `f(vertex)` once for each vertex that shares an edge with `v`, counter-clockwise. [O(valence)]
   template <class F>
   void for_each_neighbour(std::uint32_t v, F&& f) const {
-    for_each_outgoing(v, [&](std::uint32_t h) {
+    const Fan fan = implied_fan(v);
+    walk(v, fan, [&](std::uint32_t h) {
       f(target(h));
-      if (twin_[prev(h)] == kNone) f(origin_[prev(h)]);  // the far end of an open fan has no half-edge from v
+      // The far end of an open fan has no half-edge from v.
+      if (fan.count == 0 && twin(prev(h)) == kNone) f(origin_[prev(h)]);
     });
   }
 
@@ -78,12 +90,7 @@ class HalfEdgeMesh {
   /// Calls `f(half_edge)` once for each half-edge that starts at `v`, counter-clockwise. [O(valence)]
   template <class F>
   void for_each_outgoing(std::uint32_t v, F&& f) const {
-    const std::uint32_t first = outgoing_[v];
-    for (std::uint32_t h = first; h != kNone;) {
-      f(h);
-      h = twin_[prev(h)];
-      if (h == first) break;
-    }
+    walk(v, implied_fan(v), f);
   }
 
   /// Puts a new vertex in the middle of the edge of `h` and returns it: it is the last, or `vertex`, one without faces;
@@ -114,6 +121,28 @@ class HalfEdgeMesh {
   std::string validate() const;
 
  private:
+  using Fan = GridLayout::Fan;
+  // The fan of a vertex inside a grid, nothing elsewhere. Edits write outgoing() of each vertex whose fan they change:
+  // where that follows the rule, all of the fan does.
+  Fan implied_fan(std::uint32_t v) const {
+    if (!outgoing_.follows_rule(v)) return {};
+    const GridLayout::Node at = grid_.node(v);
+    return grid_.is_border(at) ? Fan{} : grid_.fan(at);
+  }
+  template <class F>
+  void walk(std::uint32_t v, const Fan& fan, F&& f) const {
+    // One call of f in here: what it does is inlined where it is called.
+    const std::uint32_t first = fan.count > 0 ? fan.half_edge[0] : outgoing(v);
+    for (std::uint32_t h = first, met = 1; h != kNone; ++met) {
+      f(h);
+      if (fan.count > 0)
+        h = met < fan.count ? fan.half_edge[met] : kNone;
+      else if (h = twin(prev(h)); h == first)
+        break;
+    }
+  }
+  void set_twin(std::uint32_t h, std::uint32_t twin);
+  void set_outgoing(std::uint32_t v, std::uint32_t h);
   void link(std::uint32_t a, std::uint32_t b);
   std::uint32_t split_face(std::uint32_t h, std::uint32_t vertex);
   bool can_collapse(std::uint32_t h) const;
@@ -122,9 +151,10 @@ class HalfEdgeMesh {
   bool are_neighbours(std::uint32_t a, std::uint32_t b) const;
   void settle_outgoing(std::uint32_t v, std::uint32_t h);
 
-  std::vector<std::uint32_t> origin_;    // [half_edge] vertex where it starts: the index buffer
-  std::vector<std::uint32_t> twin_;      // [half_edge] kNone at a boundary
-  std::vector<std::uint32_t> outgoing_;  // [vertex] see outgoing()
+  std::vector<std::uint32_t> origin_;  // [half_edge] vertex where it starts: the index buffer
+  PagedIds twin_;                      // [half_edge] kNone at a boundary
+  PagedIds outgoing_;                  // [vertex] see outgoing()
+  GridLayout grid_;                    // the rule of both
 };
 
 }  // namespace divot::geometry

@@ -194,6 +194,7 @@ float find_excess(const Site& site, std::uint32_t vertex) {
 std::uint8_t look_round(const Site& site, std::uint32_t vertex, const LeastSlopes& least) {
   const state::Surface& surface = site.ground.surface;
   const Vec3d centre = to_double(surface.position[vertex]);
+  const bool open = surface.mesh.is_boundary(vertex);
   const double face = least.face * least.face, edge = least.edge * least.edge;
   std::uint8_t round = site.excess(vertex) > 0 ? kSteepEdge : 0;
   const auto look_along = [&](std::uint32_t neighbour, const Vec3d& way) {
@@ -207,7 +208,7 @@ std::uint8_t look_round(const Site& site, std::uint32_t vertex, const LeastSlope
     const Vec3d normal = cross(u, v);
     if (normal.x * normal.x + normal.y * normal.y > face * normal.z * normal.z) round |= kSteepFace;
     look_along(a, u);
-    if (surface.mesh.twin(far) == kNone) look_along(b, v);
+    if (open && surface.mesh.twin(far) == kNone) look_along(b, v);
   });
   return round;
 }

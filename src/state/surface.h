@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,23 +9,12 @@
 #include "divot/vec.h"
 #include "geometry/bisection.h"
 #include "geometry/bvh.h"
+#include "geometry/grid_layout.h"
 #include "geometry/half_edge_mesh.h"
 
 namespace divot::state {
 
-/// How a regular grid's vertices are numbered: tile by tile, so that near neighbours are near in memory and a tile can
-/// later be loaded by itself. Row 0 is the southernmost, column 0 the westernmost.
-struct GridLayout {
-  static constexpr std::uint32_t kTile = 32;
-  std::uint32_t columns = 0, rows = 0;
-
-  /// Vertex of a column and row. [O(1)]
-  std::uint32_t vertex(std::uint32_t column, std::uint32_t row) const {
-    const std::uint32_t band = row / kTile, tile = column / kTile;
-    const std::uint32_t height = std::min(kTile, rows - band * kTile), width = std::min(kTile, columns - tile * kTile);
-    return band * kTile * columns + tile * kTile * height + (row - band * kTile) * width + (column - tile * kTile);
-  }
-};
+using geometry::GridLayout;
 
 /// A terrain that came from a grid or a raster: what is needed to write one again.
 struct Raster {

@@ -10,9 +10,10 @@
 namespace divot::terrain {
 namespace {
 
-// What a vertex takes: its own columns and, with two faces to a vertex, six half-edges of origin and twin.
-constexpr std::uint64_t kBytesPerVertex = sizeof(Vec3) + sizeof(std::uint8_t) + 2 * sizeof(std::uint32_t) +  //
-                                          6 * 2 * sizeof(std::uint32_t);
+// What a vertex takes: its own columns, two faces of three corners and, with four boxes of six floats to 32 faces, 7 of
+// the hierarchy.
+constexpr std::uint64_t kBytesPerVertex = sizeof(Vec3) + sizeof(std::uint8_t) + sizeof(std::uint32_t) +  //
+                                          6 * sizeof(std::uint32_t) + 7;
 // Six half-edges a vertex have to be numbered in 32 bits, kNone left out.
 constexpr std::uint64_t kMostVertices = (kNone - 1) / 6;
 
@@ -78,9 +79,13 @@ Result<state::Surface> build_surface(HeightField field, const Vec3d& origin, Err
 
   state::Surface surface;
   const auto count = static_cast<std::uint32_t>(field.height.size());
-  auto mesh = geometry::HalfEdgeMesh::build(count, std::move(triangles));
-  if (!mesh) return tl::unexpected(mesh.error());
-  surface.mesh = std::move(*mesh);
+  if (triangles.size() == 6 * std::size_t{field.raster.layout.cell_count()}) {
+    surface.mesh = geometry::HalfEdgeMesh::of_grid(field.raster.layout, std::move(triangles));
+  } else {
+    auto mesh = geometry::HalfEdgeMesh::build(count, std::move(triangles));
+    if (!mesh) return tl::unexpected(mesh.error());
+    surface.mesh = std::move(*mesh);
+  }
   surface.origin = origin;
   surface.position = positions(field, origin);
   surface.material.assign(count, 0);
