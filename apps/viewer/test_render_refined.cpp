@@ -16,7 +16,7 @@ TEST(Render, NewTrianglesAreFollowed) {
     Scene scene;
     scene.terrain = {.shape = GridTerrain{.columns = 17, .rows = 9, .spacing = 0.8},
                      .material = "dry_sand",
-                     .refine = {.min_edge = min_edge}};
+                     .refine = {.min_edge = min_edge, .error = 0.002, .tolerance = 1e-4}};
     scene.bodies = {{.shape = Sphere{.radius = 0.4},
                      .mass = 250,
                      .position = {-4, 0.03, 0},
