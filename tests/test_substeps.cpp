@@ -18,7 +18,7 @@ TEST(Substeps, HardGroundSetsThemOnlyWhileItMoves) {
   EXPECT_LT(report.substeps, 16);
   EXPECT_TRUE(report.substeps_limited) << "it is softened, and the report says so";
   EXPECT_EQ(world.bodies()[0].max_sinkage, sinkage) << "softened ground that hardly moves bears as before";
-  EXPECT_NEAR(world.bodies()[0].position.z, 0.2, 1e-3);
+  EXPECT_NEAR(world.bodies()[0].position.z, 0.2, 2e-3) << "a ball bears on a point";
 }
 
 }  // namespace

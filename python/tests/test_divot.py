@@ -81,7 +81,7 @@ def test_terrain_may_be_a_mesh():
     world = divot.World({"terrain": {"mesh": {"vertices": vertices, "triangles": [[0, 1, 2], [0, 2, 3]]}}})
     assert world.ground_height(3, 1) == pytest.approx(1)
     assert world.raster() is None
-    with pytest.raises(divot.Error, match="faces down"):
+    with pytest.raises(divot.Error, match="no triangle faces up"):
         divot.World({"terrain": {"mesh": {"vertices": vertices, "triangles": [[0, 2, 1]]}}})
 
 

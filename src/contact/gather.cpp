@@ -76,8 +76,8 @@ std::vector<Footing>::iterator nearest_to(double x, double y, std::vector<Footin
 }
 
 // Share of a column's distance from the line of touch that it keeps in soft ground: a truck's way then depends least on
-// the grid's spacing and on its heading. At 1 wheels that run along the grid are off most, at 0.5 those that cross it.
-constexpr double kRolledAside = 0.75;
+// the grid's spacing. At 1 wheels that run along the grid are off most, at 0 those that cross it.
+constexpr double kRolledAside = 0.5;
 
 // A line of touch from above.
 struct Line {
