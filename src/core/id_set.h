@@ -22,6 +22,12 @@ class IdSet {
     filled_[word / 64] |= std::uint64_t{1} << (word % 64);
   }
 
+  /// [O(1)]
+  bool contains(std::uint32_t id) const {
+    const std::size_t word = id / 64;
+    return word < words_.size() && (words_[word] >> (id % 64) & 1);
+  }
+
   /// Takes a number out, if it is there. [O(1)]
   void erase(std::uint32_t id) {
     const std::size_t word = id / 64;

@@ -14,6 +14,9 @@ namespace divot::laws {
 /// at most so much among the sands and gravels of [Wong 2008], Pa.
 inline constexpr float kApparentCohesion = 1.6e3f;
 
+/// Slopes count as at rest up to this much beyond that of rest: half a degree.
+inline constexpr double kAtRest = 0.01;
+
 /// Height up to which the soil stands vertically, m: 4 c / (density g) tan(45 deg + phi / 2) [Terzaghi 1943].
 inline double critical_height(const Medium& s, double gravity) {
   const double cohesion = std::max(0.0f, s.cohesion - kApparentCohesion), t = s.tan_friction;

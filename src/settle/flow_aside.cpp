@@ -172,25 +172,21 @@ bool is_free(const Ground& ground, std::uint32_t vertex) {
 // Free vertices within `reach` of what the body presses, and at least the first ring of them, ring by ring.
 void find_beside(const Ground& ground, std::span<const std::uint32_t> carried, double reach, FlowScratch& scratch) {
   using Beside = FlowScratch::Beside;
-  auto &ring = scratch.ring, &previous = scratch.previous, &next = scratch.next;
-  const auto has = [](const std::vector<Beside>& list, std::uint32_t v) {
-    const auto at =
-        std::lower_bound(list.begin(), list.end(), v, [](const Beside& b, std::uint32_t w) { return b.vertex < w; });
-    return at != list.end() && at->vertex == v;
-  };
-  scratch.beside.clear(), previous.clear(), ring.clear();
+  auto &ring = scratch.ring, &next = scratch.next;
+  scratch.beside.clear(), ring.clear();
   for (const std::uint32_t i : carried) {
     const Flat place = place_of(ground, ground.particles.vertex[i]);
     ring.push_back({.vertex = ground.particles.vertex[i], .x = place.x, .y = place.y});
+    scratch.met.insert(ground.particles.vertex[i]);
   }
   while (!ring.empty()) {
     next.clear();
     for (const Beside& from : ring)
       ground.surface.mesh.for_each_neighbour(from.vertex, [&](std::uint32_t u) {
-        if (!is_free(ground, u)) return;
+        if (scratch.met.contains(u) || !is_free(ground, u)) return;
         const Flat here = place_of(ground, from.vertex), edge = place_of(ground, u) - here;
         const double distance = from.distance + std::sqrt(dot(edge, edge));
-        if (distance >= reach || has(ring, u) || has(previous, u)) return;
+        if (distance >= reach) return;
         const Flat rim = from.distance > 0 ? Flat{from.x, from.y} : here + 0.5 * edge;
         next.push_back({.vertex = u, .distance = distance, .x = rim.x, .y = rim.y});
       });
@@ -199,9 +195,11 @@ void find_beside(const Ground& ground, std::span<const std::uint32_t> carried, d
     });
     next.erase(std::unique(next.begin(), next.end(), [](auto& a, auto& b) { return a.vertex == b.vertex; }),
                next.end());
+    for (const Beside& b : next) scratch.met.insert(b.vertex);
     scratch.beside.insert(scratch.beside.end(), next.begin(), next.end());
-    std::swap(previous, ring), std::swap(ring, next);
+    std::swap(ring, next);
   }
+  scratch.met.clear();
 }
 
 // Soil that comes out where nothing can take it, as at the terrain's border, goes on round the patch.

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/id_set.h"
 #include "laws/medium.h"
 #include "settle/ground.h"
 #include "state/bodies.h"
@@ -22,7 +23,8 @@ struct FlowScratch {
     double side = 0;      ///< where round the patch, in sectors
   };
   std::vector<std::uint32_t> first, carried;  ///< particles by the body that carries them, ascending
-  std::vector<Beside> previous, ring, next, beside;
+  core::IdSet met;                            ///< vertices in rings so far
+  std::vector<Beside> ring, next, beside;
 };
 
 /// Soil that bodies have pressed beyond what its pores can give flows out from under them: forward where the body's

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,29 +9,18 @@
 #include "laws/medium.h"
 #include "settle/ground.h"
 #include "settle/ring_terms.h"
+#include "settle/slope_patch.h"
 
 namespace divot::settle {
-
-/// A face of the surface that is too steep to rest.
-struct Slide {
-  std::uint32_t face = 0;
-  /// Soil it brings to each of its corners, m^3 per unit of mobility and time.
-  std::array<double, 3> share{};
-  double wanted = 0;  ///< mobility of the ground, m^2/s
-  double stable = 0;  ///< mobility times time that it takes without overshooting, m^2
-  double most = 0;    ///< mobility times time after which all loose soil is gone, m^2
-};
 
 /// Arrays the slump needs; they grow and stay.
 struct SlumpScratch {
   core::IdSet set;                  ///< of vertices or faces, empty between uses
-  core::IdSet sliding;              ///< faces of `slides`
   std::vector<double> stands;       ///< [medium] m, height up to which it stands vertically
   std::vector<std::uint8_t> round;  ///< [restless] what there is to look at round it
   std::vector<std::uint32_t> faces, vertices, next;
-  std::vector<Slide> found, slides;  ///< ascending by face
-  std::vector<double> inflow;        ///< [vertices] m^3
-  std::vector<float> excess;         ///< [vertices] m
+  std::vector<float> excess;  ///< [vertices] m
+  SlopePatch patch;
 };
 
 /// Slopes below which nothing is steep, squared: the least of all soils, with a margin for floats.
