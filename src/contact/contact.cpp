@@ -43,15 +43,19 @@ void leave_ground(state::Body& body, const std::optional<Row>& impulse, const Sc
   body.near_left -= length(body.position - before.position) + sweep * s.dt;
 }
 
-bool pressed_before(const std::vector<Press>& last, std::uint32_t vertex) {
-  const auto at =
-      std::lower_bound(last.begin(), last.end(), vertex, [](const Press& p, std::uint32_t v) { return p.vertex < v; });
-  return at != last.end() && at->vertex == vertex;
+// Calls f(press, before) for each of `presses`: whether its vertex is among `others` too. Both ascend.
+template <class F>
+void for_each_press(const std::vector<Press>& presses, const std::vector<Press>& others, F f) {
+  auto other = others.begin();
+  for (const Press& press : presses) {
+    while (other != others.end() && other->vertex < press.vertex) ++other;
+    f(press, other != others.end() && other->vertex == press.vertex);
+  }
 }
 
 // A body that wakes something wakes so many rings of vertices round all that it presses: what depends on the set of
 // particles is dear to make anew, and a body that rolls would change the set in every step.
-constexpr int kWokenRings = 3;
+constexpr std::size_t kWokenRings = 3;
 
 bool is_awake(const Situation& s, std::uint32_t vertex) {
   const std::uint32_t column = s.surface.column[vertex], i = column == kNone ? kNone : s.soil.particle[column];
@@ -60,46 +64,40 @@ bool is_awake(const Situation& s, std::uint32_t vertex) {
 
 // What is pressed has to be awake, and what lies next to where it was not pressed before.
 bool must_wake(const Scratch::PerBody& scratch, const Situation& s) {
-  return std::any_of(scratch.presses.begin(), scratch.presses.end(), [&](const Press& press) {
-    bool awake = is_awake(s, press.vertex);
-    if (awake && !pressed_before(scratch.last, press.vertex))
-      s.surface.mesh.for_each_neighbour(press.vertex, [&](std::uint32_t u) { awake &= is_awake(s, u); });
-    return !awake;
+  bool awake = true;
+  for_each_press(scratch.presses, scratch.last, [&](const Press& press, bool before) {
+    awake = awake && is_awake(s, press.vertex);
+    if (awake && !before)
+      s.surface.mesh.for_each_neighbour(press.vertex, [&](std::uint32_t u) { awake = awake && is_awake(s, u); });
   });
+  return !awake;
 }
 
 void wake_pressed(Scratch::PerBody& scratch, const Situation& s, std::vector<std::uint32_t>& wake) {
   if (!must_wake(scratch, s)) return;
-  auto &previous = scratch.previous, &ring = scratch.ring, &next = scratch.next;
-  const auto has = [](const std::vector<std::uint32_t>& list, std::uint32_t u) {
-    return std::binary_search(list.begin(), list.end(), u);
-  };
-  previous.clear(), ring.clear();
-  for (const Press& press : scratch.presses) ring.push_back(press.vertex);
-  wake.insert(wake.end(), ring.begin(), ring.end());
-  for (int k = 0; k < kWokenRings; ++k) {
-    next.clear();
-    for (const std::uint32_t v : ring)
-      s.surface.mesh.for_each_neighbour(v, [&](std::uint32_t u) {
-        if (!has(ring, u) && !has(previous, u)) next.push_back(u);
+  std::vector<std::uint32_t>& reached = scratch.found;
+  reached.clear(), scratch.met.clear();
+  for (const Press& press : scratch.presses) reached.push_back(press.vertex), scratch.met.insert(press.vertex);
+  for (std::size_t ring = 0, begin = 0; ring < kWokenRings; ++ring) {
+    const std::size_t end = reached.size();
+    for (; begin < end; ++begin)
+      s.surface.mesh.for_each_neighbour(reached[begin], [&](std::uint32_t u) {
+        if (scratch.met.insert(u)) reached.push_back(u);
       });
-    std::sort(next.begin(), next.end());
-    next.erase(std::unique(next.begin(), next.end()), next.end());
-    wake.insert(wake.end(), next.begin(), next.end());
-    std::swap(previous, ring), std::swap(ring, next);
   }
+  wake.insert(wake.end(), reached.begin(), reached.end());
 }
 
 void release(const Scratch::PerBody& scratch, state::Particles& p, state::Soil& soil, const state::Surface& surface) {
-  for (const Press& press : scratch.last) {
+  for_each_press(scratch.last, scratch.presses, [&](const Press& press, bool still) {
     const std::uint32_t column = surface.column[press.vertex], i = soil.particle[column];
-    if (i == kNone || p.hold[i] != Hold::carried) continue;
+    if (i == kNone || p.hold[i] != Hold::carried) return;
     p.hold[i] = Hold::free;
     p.carrier[i] = kNone;
     p.yielded[i] = 0;
     p.set_velocity(i, {});
-    if (!pressed_before(scratch.presses, press.vertex)) soil.shear[column] = {};
-  }
+    if (!still) soil.shear[column] = {};
+  });
 }
 
 Vec3 keep_shape(Vec3 place, const Vec3& original, float spacing) {

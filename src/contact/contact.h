@@ -7,6 +7,7 @@
 #include "contact/joint_rows.h"
 #include "contact/resistance.h"
 #include "contact/rigid_bodies.h"
+#include "core/hash_set.h"
 #include "divot/jobs.h"
 #include "divot/settings.h"
 #include "geometry/bvh.h"
@@ -94,7 +95,8 @@ struct Scratch {
   struct PerBody {
     state::RegionScratch region;
     geometry::PosedSolid start, end;  // the body at the start of the step and where it is expected at its end
-    std::vector<std::uint32_t> found, previous, ring, next;
+    std::vector<std::uint32_t> found, ring;
+    core::HashSet met;  // of vertices
     std::vector<Footing> footings;
     Vec3d ground{0, 0, 1};                // across the unpressed ground under the body, 1 high
     std::vector<geometry::Cover> covers;  // [footing] area, and area times place

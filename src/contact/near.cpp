@@ -26,30 +26,18 @@ std::uint32_t walk(const state::Body& body, const state::Surface& surface, std::
   return at;
 }
 
-// Every vertex within `reach` of the body's shadow that hangs together with `start` there, ascending. Ring by ring:
-// what a ring's neighbours meet again lies in that ring or the one before it.
+// Every vertex within `reach` of the body's shadow that hangs together with `start` there, in no order. Bound by the
+// walk round each vertex: about 25 ns, of which the set takes a few.
 void flood(const state::Surface& surface, std::uint32_t start, double reach, Scratch::PerBody& scratch) {
-  auto &found = scratch.found, &previous = scratch.previous, &ring = scratch.ring, &next = scratch.next;
-  const auto has = [](const std::vector<std::uint32_t>& list, std::uint32_t u) {
-    return std::binary_search(list.begin(), list.end(), u);
-  };
+  std::vector<std::uint32_t>& found = scratch.found;
+  scratch.met.clear();
+  scratch.met.insert(start);
   found.assign(1, start);
-  previous.clear();
-  ring.assign(1, start);
-  while (!ring.empty()) {
-    next.clear();
-    for (const std::uint32_t v : ring)
-      surface.mesh.for_each_neighbour(v, [&](std::uint32_t u) {
-        const Vec3 p = surface.position[u];
-        if (scratch.start.over(p.x, p.y, reach) && !has(ring, u) && !has(previous, u)) next.push_back(u);
-      });
-    std::sort(next.begin(), next.end());
-    next.erase(std::unique(next.begin(), next.end()), next.end());
-    found.insert(found.end(), next.begin(), next.end());
-    std::swap(previous, ring);
-    std::swap(ring, next);
-  }
-  std::sort(found.begin(), found.end());
+  for (std::size_t k = 0; k < found.size(); ++k)
+    surface.mesh.for_each_neighbour(found[k], [&](std::uint32_t u) {
+      const Vec3 p = surface.position[u];
+      if (scratch.start.over(p.x, p.y, reach) && scratch.met.insert(u)) found.push_back(u);
+    });
 }
 
 // A walk can be trusted where it ended under the body and the ground there hangs together: no hole or border cuts the
@@ -104,6 +92,7 @@ void find_near(state::Body& body, const Situation& s, Scratch::PerBody& scratch)
   for (const std::uint32_t v : scratch.found)
     if (scratch.start.within_reach(s.surface.position[v], reach) && !is_behind_rigid(body, s, v, scratch.region))
       body.near.push_back(v);
+  std::sort(body.near.begin(), body.near.end());
   body.near_left = reach;
 }
 
