@@ -38,5 +38,21 @@ TEST(Math, PowersAgreeWithTheLibrarys) {
   EXPECT_EQ(to_the_power(0.0f, 0.5f), 0);
 }
 
+TEST(Math, DoublesAgreeWithTheLibrarysToTheLastDigits) {
+  test::Random random(4);
+  for (int k = 0; k < 20000; ++k) {
+    const double x = random.in(-700.0, 700.0), z = std::pow(10.0, random.in(-9.0, 3.0));
+    const float y = random.in(0.1f, 3.0f);
+    ASSERT_LT(relative(exponential(x), std::exp(x)), 3e-16) << x;
+    const double log = std::log(z), power = std::pow(z, static_cast<double>(y));
+    ASSERT_NEAR(logarithm_of_double(z), log, 3e-16 * std::abs(log)) << z;
+    ASSERT_LT(relative(to_the_power(z, y), power), 2e-16 * (2 + std::abs(std::log(power)))) << z << ' ' << y;
+  }
+  EXPECT_EQ(exponential(0.0), 1);
+  EXPECT_EQ(logarithm_of_double(1.0), 0);
+  EXPECT_EQ(to_the_power(0.0, 0.5f), 0);
+  EXPECT_TRUE(std::isfinite(exponential(1e4)));
+}
+
 }  // namespace
 }  // namespace divot::math

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/columns.h"
 #include "contact/joint_rows.h"
 #include "contact/resistance.h"
 #include "contact/rigid_bodies.h"
@@ -27,13 +28,6 @@
 // sums      a body's columns in ascending order of vertex
 namespace divot::contact {
 
-/// How a column ends the step under the body.
-struct Answer {
-  double plastic = 0;   ///< m
-  double pressure = 0;  ///< Pa
-  Vec3d shear;          ///< m
-};
-
 /// A column of soil within a body's reach, gathered once a step from surface, soil and particles. Heights are those of
 /// the plane through the column's vertex at the point where the body meets it.
 struct Footing {
@@ -52,28 +46,11 @@ struct Footing {
   double area = 0, mass = 0;    ///< m^2, of the part that the body covers where its edge cuts through; kg
   double pull = 0, speed = 0;   ///< N, m/s: of the particle by its bonds, and upward
   Vec3d shear;                  ///< m, shear displacement j
-  double load = 0;              ///< N, the push that the last pass of the solve found
-  double held = 0;              ///< N, upward on the body by shear along its flank, likewise
-  Answer answer;                ///< likewise
 };
 
 /// A row from a body's velocity and spin to a speed at one contact.
 using math::dot6;
 using math::Row;
-
-/// A column's answer to the body, with the geometry frozen where the body is expected to end the step.
-struct Contact {
-  std::uint32_t footing = 0;
-  Vec3d arm;              ///< from the body's centre, m
-  Vec3d tangent[2];       ///< unit, across the underside's normal
-  Row rise{};             ///< to the speed of the underside over the column, upward
-  Row lift{};             ///< likewise without what the underside's slope makes of a way along the ground
-  Row slip[2]{};          ///< to the slip against the column along each tangent
-  double underside = 0;   ///< m, height where the geometry was frozen
-  double rise_there = 0;  ///< m/s, of the velocity it was frozen at
-  double slope = 1;       ///< length of the push's direction whose vertical part is 1
-  double grip = 0;        ///< N, largest shear force
-};
 
 /// Soil that stands before a piece of a body's upright side and resists being pushed on by it.
 struct Wall {
@@ -100,7 +77,8 @@ struct Scratch {
     std::vector<Footing> footings;
     Vec3d ground{0, 0, 1};                // across the unpressed ground under the body, 1 high
     std::vector<geometry::Cover> covers;  // [footing] area, and area times place
-    std::vector<Contact> contacts;
+    Columns columns;                      // [footing]
+    ColumnTask task;
     std::vector<Wall> walls;
     std::vector<Guide> guides;
     std::vector<Press> presses, last;

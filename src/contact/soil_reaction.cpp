@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/column_load.h"
+#include "contact/frozen_columns.h"
 #include "contact/near.h"
 #include "contact/rim_shear.h"
 
@@ -68,8 +68,8 @@ Matrix6 inertia_of(const state::Body& body) {
 // The six balances of momentum of one pass.
 struct Balance {
   const state::Body& body;
-  const std::vector<Footing>& footings;
-  const std::vector<Contact>& contacts;
+  const std::vector<ColumnBlock>& columns;
+  ColumnTask& task;
   const std::vector<Wall>& walls;
   const Situation& s;
   Row start;        // velocity and spin with gravity and without soil
@@ -99,30 +99,16 @@ struct Balance {
       add_scaled(r, wall.inward, -s.dt * wall.force * std::min(1.0, inward / kPushed));
       if (a != nullptr && inward < kPushed) add_outer(*a, wall.inward, s.dt * wall.force / kPushed);
     }
-    for (const Contact& c : contacts) {
-      const Footing& f = footings[c.footing];
-      const laws::Medium& medium = s.media[f.material];
-      const Push push = push_of(body, f, c, v, s);
-      if (push.force > 0) {
-        add_scaled(r, c.rise, s.dt * push.force);
-        if (a != nullptr) add_outer(*a, c.rise, s.dt * push.per_rising);
-        if (a != nullptr && push.per_lifting > 0) add_outer(*a, c.lift, s.dt * push.per_lifting);
-      }
-      if (c.grip <= 0) continue;
-      const Shear shear = shear_of(medium, f, c, {dot6(c.slip[0], v), dot6(c.slip[1], v)}, s.dt);
-      for (int i = 0; i < 2; ++i) add_scaled(r, c.slip[i], -s.dt * shear.force[i]);
-      add_scaled(r, c.lift, s.dt * f.held);
-      if (a != nullptr) add_shear_slope(*a, c, shear);
-    }
+    std::copy(v.begin(), v.end(), task.v);
+    ColumnSums sums;
+    const auto add = a != nullptr ? fastest_columns().add : fastest_columns().add_force;
+    add(task, columns.data(), columns.size(), sums);
+    const auto sum = [](const ColumnBlock::Four& x) { return (x[0] + x[1]) + (x[2] + x[3]); };
+    for (int k = 0; k < 6; ++k) r[k] += s.dt * sum(sums.force[k]);
+    if (a != nullptr)
+      for (int row = 0, at = 0; row < 6; ++row)
+        for (int c = 0; c <= row; ++c, ++at) (*a)[row][c] += s.dt * sum(sums.slope[at]);
     return r;
-  }
-
-  void add_shear_slope(Matrix6& a, const Contact& c, const Shear& shear) const {
-    Row along{}, across{};
-    add_scaled(along, c.slip[0], shear.along[0]), add_scaled(along, c.slip[1], shear.along[1]);
-    add_scaled(across, c.slip[0], -shear.along[1]), add_scaled(across, c.slip[1], shear.along[0]);
-    add_outer(a, along, s.dt * s.dt * shear.tangent);
-    add_outer(a, across, s.dt * s.dt * shear.secant);
   }
 };
 
@@ -160,35 +146,31 @@ void find_balance(const Balance& balance, double exact, Row& v) {
   }
 }
 
-// What shear along the underside's flank carries of the body, N: that under a driven wheel lifts it.
-double held_by_shear(const Footing& f, const Contact& c, const Row& v, const Situation& s) {
-  if (c.grip <= 0) return 0;
-  const Shear shear = shear_of(s.media[f.material], f, c, {dot6(c.slip[0], v), dot6(c.slip[1], v)}, s.dt);
-  return -shear.force[0] * c.tangent[0].z - shear.force[1] * c.tangent[1].z;
-}
-
 // Newton's law of impact on top of the soil's plastic answer: once the soil has stopped the body, the share of the
 // speed of impact that restitution asks for comes back. Soil alone would return next to nothing.
 // True when it did.
-bool rebound(state::Body& body, const std::vector<Footing>& footings, const std::vector<Contact>& contacts,
-             const Row& v, const Vec3d& before, const Situation& s) {
+bool rebound(state::Body& body, const std::vector<Footing>& footings, const Columns& columns, const Row& v,
+             const Vec3d& before, const Situation& s) {
   body.velocity = {v[0], v[1], v[2]};
   body.angular_velocity = {v[3], v[4], v[5]};
   Vec3d sum;
-  const Footing* hardest = nullptr;
-  for (const Contact& c : contacts) {
-    const Footing& f = footings[c.footing];
-    sum += f.load * Vec3d{c.rise[0], c.rise[1], c.rise[2]};
-    if (f.load > 0 && (hardest == nullptr || f.load > hardest->load)) hardest = &f;
+  double most = 0;
+  std::uint8_t material = 0;
+  for (std::size_t k = 0; k < footings.size() && columns.any_below; ++k) {
+    const ColumnBlock& b = columns.blocks[k / ColumnBlock::kColumns];
+    const std::size_t i = k % ColumnBlock::kColumns;
+    const double load = b.load[i];
+    sum += load * Vec3d{b.rise[0][i], b.rise[1][i], 1};
+    if (load > most) most = load, material = footings[k].material;
   }
-  if (hardest == nullptr) return false;
+  if (most <= 0) return false;
   const Vec3d up = sum * (1 / length(sum));
   const double resting = 2 * length(s.gravity) * s.dt;  // what gravity alone brings is no impact
   const double approach = -dot(before, up);
   if (!body.touching && approach > resting) body.impact_speed = std::max(body.impact_speed, approach);
   const double leaving = dot(body.velocity, up);
   if (body.impact_speed == 0 || leaving < -0.02 * body.impact_speed) return false;
-  const double wanted = body.restitution * s.media[hardest->material].restitution * body.impact_speed;
+  const double wanted = body.restitution * s.media[material].restitution * body.impact_speed;
   const bool bounces = wanted > std::max(leaving, resting);
   if (bounces) body.velocity += (wanted - leaving) * up;
   body.impact_speed = 0;
@@ -244,8 +226,10 @@ double set_down(state::Body& body, const Vec3d& ground, double dt) {
 // The velocity at which the body is in balance with the soil after s.dt. `weight`: share of gravity.
 Row find_velocity(const state::Body& body, double weight, const Situation& s, Scratch::PerBody& scratch,
                   Resistance& resistance) {
-  std::vector<Footing>& footings = scratch.footings;
-  std::vector<Contact>& contacts = scratch.contacts;
+  Columns& columns = scratch.columns;
+  ColumnTask& task = scratch.task;
+  const ColumnKernel& kernel = fastest_columns();
+  columns.any_below = false;
   resistance = {inertia_of(body), body.held_impulse};
   Row start = math::row(body.velocity + s.dt * weight * s.gravity, body.angular_velocity);
   if (body.held_impulse != Row{}) {
@@ -257,22 +241,20 @@ Row find_velocity(const state::Body& body, double weight, const Situation& s, Sc
   // What carries a chassis would press its wheel deep into the ground without the soil: then the velocity it has is
   // nearer to the one it will have, and with it the geometry.
   Row v = body.held_impulse == Row{} ? start : math::row(body.velocity, body.angular_velocity);
-  Balance balance{body, footings, contacts, scratch.walls, s, start, resistance.whole, scratch.guides};
+  if (scratch.footings.empty()) return start;
+  fill_columns(body, s, scratch);
+  Balance balance{body, columns.blocks, task, scratch.walls, s, start, resistance.whole, scratch.guides};
   for (int pass = 0; pass < kPasses; ++pass) {
-    freeze_geometry(body, {body.position, body.orientation}, v, s, scratch);
-    if (contacts.empty()) return start;
-    if (pass == 0) limit_to_rim(contacts, v, s.dt, footings);
     // The first pass finds the load without friction; grip then comes from the load of the pass before.
-    for (Contact& c : contacts) c.grip = grip_of(body, footings[c.footing], c, s);
+    freeze_geometry(body, {body.position, body.orientation}, v, s, scratch);
+    if (!columns.any_below) return start;
+    if (pass == 0) limit_to_rim(v, s.dt, scratch.footings, columns);
     // What the next pass starts from need not be exact.
     find_balance(balance, (pass + 1 < kPasses ? kRough : kExact) * body.spacing, v);
-    for (const Contact& c : contacts) {
-      Footing& f = footings[c.footing];
-      f.load = push_of(body, f, c, v, s).force;
-      f.held = held_by_shear(f, c, v, s);
-    }
+    std::copy(v.begin(), v.end(), task.v);
+    kernel.load(task, columns.blocks.data(), columns.blocks.size());
   }
-  for (const Contact& c : contacts) footings[c.footing].answer = answer_of(body, footings[c.footing], c, v, s);
+  kernel.end(task, columns.blocks.data(), columns.blocks.size());
   for (const Guide& guide : balance.guides)
     add_scaled(resistance.steady, guide.line, balance.weight_of(guide) * (guide.speed - dot6(guide.line, v)));
   balance.guides = {};
@@ -284,7 +266,7 @@ Row find_velocity(const state::Body& body, double weight, const Situation& s, Sc
 // are met in one part: those know only whole steps.
 bool is_impact(const state::Body& body, const Row& v, double weight, const Situation& s,
                const Scratch::PerBody& scratch, double speed) {
-  if (scratch.contacts.empty() || !scratch.guides.empty() || body.held_impulse != Row{}) return false;
+  if (!scratch.columns.any_below || !scratch.guides.empty() || body.held_impulse != Row{}) return false;
   if (speed < length(s.gravity) * s.dt) return false;
   const double taken = length(math::linear(v) - body.velocity - s.dt * weight * s.gravity);
   return taken > kMostTaken * speed + length(s.gravity) * s.dt;  // what it takes of gravity is no impact
@@ -296,13 +278,14 @@ void move_part(state::Body& body, const Situation& s, Scratch::PerBody& scratch)
   body.orientation = math::spun(body.orientation, body.angular_velocity, s.dt);
   scratch.end.place(*body.solid, body.position, body.orientation);
   Patch patch;
-  for (const Contact& c : scratch.contacts) {
-    Footing& f = scratch.footings[c.footing];
+  const Columns& columns = scratch.columns;
+  for (std::size_t k = 0; k < scratch.footings.size() && columns.any_below; ++k) {
+    Footing& f = scratch.footings[k];
     const geometry::Underside under = scratch.end.underside(f.x, f.y);
-    if (!under.below || under.height >= f.height) continue;
+    if (!under.below || under.height >= f.height || !columns.is_below(k)) continue;
     patch.add(f.arm_x - body.position.x, f.arm_y - body.position.y, f.area);
-    f.plastic = f.answer.plastic, f.shear = f.answer.shear;
-    const double elastic = f.answer.pressure / s.media[f.material].elastic_stiffness;
+    f.plastic = columns.at(&ColumnBlock::end_plastic, k), f.shear = columns.at(&ColumnBlock::end_shear, k);
+    const double elastic = columns.at(&ColumnBlock::end_pressure, k) / s.media[f.material].elastic_stiffness;
     f.fresh -= std::max(0.0, f.fresh - under.height - f.plastic - elastic);
     f.height = under.height, f.carried = true;
     body.touching = true;
@@ -318,6 +301,7 @@ void meet_soil(state::Body& body, const Situation& s, Scratch::PerBody& scratch,
   Situation part = s;
   Row way{};
   scratch.at_start.clear();
+  scratch.columns.blocks.assign((scratch.footings.size() + ColumnBlock::kColumns - 1) / ColumnBlock::kColumns, {});
   for (double left = s.dt;;) {
     const Row v = find_velocity(body, weight, part, scratch, resistance);
     if (part.dt > s.dt / kMostParts && is_impact(body, v, weight, part, scratch, speed)) {
@@ -326,7 +310,7 @@ void meet_soil(state::Body& body, const Situation& s, Scratch::PerBody& scratch,
     }
     // A body that bounces leaves the soil: joints must not be held against it.
     const Vec3d arrived = body.velocity;
-    if (rebound(body, scratch.footings, scratch.contacts, v, arrived, part)) resistance.whole = inertia_of(body);
+    if (rebound(body, scratch.footings, scratch.columns, v, arrived, part)) resistance.whole = inertia_of(body);
     left -= part.dt;
     add_scaled(way, math::row(body.velocity, body.angular_velocity), part.dt);
     if (left <= 0) break;
@@ -346,10 +330,10 @@ void meet_soil(state::Body& body, const Situation& s, Scratch::PerBody& scratch,
 }
 
 void answer_again(const state::Body& body, const Scratch::Pose& before, const Situation& s, Scratch::PerBody& scratch) {
-  const Row v = math::row(body.velocity, body.angular_velocity);
-  freeze_geometry(body, before, v, s, scratch);
-  for (const Contact& c : scratch.contacts)
-    scratch.footings[c.footing].answer = answer_of(body, scratch.footings[c.footing], c, v, s);
+  if (scratch.footings.empty()) return;
+  fill_columns(body, s, scratch);
+  freeze_geometry(body, before, math::row(body.velocity, body.angular_velocity), s, scratch);
+  fastest_columns().end(scratch.task, scratch.columns.blocks.data(), scratch.columns.blocks.size());
 }
 
 void record_presses(state::Body& body, Scratch::PerBody& scratch) {
@@ -358,18 +342,19 @@ void record_presses(state::Body& body, Scratch::PerBody& scratch) {
   body.last_vertex = kNone;
   double deepest = 0;
   Patch patch;
-  if (!scratch.contacts.empty()) scratch.end.place(*body.solid, body.position, body.orientation);
-  for (const Contact& c : scratch.contacts) {
-    const Footing& f = scratch.footings[c.footing];
+  const Columns& columns = scratch.columns;
+  if (columns.any_below) scratch.end.place(*body.solid, body.position, body.orientation);
+  for (std::size_t k = 0; k < scratch.footings.size() && columns.any_below; ++k) {
+    const Footing& f = scratch.footings[k];
     const geometry::Underside under = scratch.end.underside(f.x, f.y);
-    if (!under.below || under.height >= f.height) continue;
-    const Vec3d slid = f.answer.shear - f.shear;
+    if (!under.below || under.height >= f.height || !columns.is_below(k)) continue;
+    const Vec3d shear = columns.at(&ColumnBlock::end_shear, k), slid = shear - f.shear;
     const Vec3 place = f.vertex_position + to_float({slid.x, slid.y, 0});
     scratch.presses.push_back({f.vertex,
                                {place.x, place.y, static_cast<float>(under.height - f.above_vertex)},
-                               to_float(f.answer.shear),
-                               static_cast<float>(f.answer.plastic),
-                               static_cast<float>(f.answer.pressure)});
+                               to_float(shear),
+                               static_cast<float>(columns.at(&ColumnBlock::end_plastic, k)),
+                               static_cast<float>(columns.at(&ColumnBlock::end_pressure, k))});
     patch.add(f.arm_x - body.position.x, f.arm_y - body.position.y, f.area);
     const double sunk = f.original - under.height;
     body.sinkage = std::max(body.sinkage, sunk);
