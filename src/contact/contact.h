@@ -65,6 +65,7 @@ struct Press {
   Vec3 shear;          ///< shear displacement j, m
   float plastic = 0;   ///< m
   float pressure = 0;  ///< Pa, by which it answered
+  float load = 0;      ///< N, its push upward
 };
 
 /// Arrays the stage needs; they grow and stay. One set a body.
@@ -79,6 +80,7 @@ struct Scratch {
     std::vector<geometry::Cover> covers;  // [footing] area, and area times place
     Columns columns;                      // [footing]
     ColumnTask task;
+    std::vector<double> loads;  // [column] N, before a pass
     std::vector<Wall> walls;
     std::vector<Guide> guides;
     std::vector<Press> presses, last;

@@ -28,7 +28,10 @@ constexpr double kSetDown = 1.5, kLowering = 8, kLowered = 0.01;
 // at the end of a longer one would stop a body before it is where the soil can. Parts are no shorter than 1/kMostParts.
 constexpr double kMostTaken = 0.025;
 constexpr int kMostParts = 64;
-constexpr int kPasses = 3, kIterations = 40, kHalvings = 12;
+constexpr int kMostPasses = 3, kIterations = 40, kHalvings = 12;
+// A second pass is the last where the first one finds that loads have changed by no more than this share since the last
+// step: what rolls through soft soil needs no third, what has a few stiff columns below it does.
+constexpr double kSameLoad = 0.1;
 // Shares of the spacing by which Newton's last step in a pass may move the body.
 constexpr double kRough = 1e-5, kExact = 1e-8;
 
@@ -223,6 +226,20 @@ double set_down(state::Body& body, const Vec3d& ground, double dt) {
   return body.weight_share * body.weight_share * (3 - 2 * body.weight_share);
 }
 
+void keep_loads(const Columns& columns, std::vector<double>& loads) {
+  loads.clear();
+  for (const ColumnBlock& b : columns.blocks) loads.insert(loads.end(), b.load, b.load + ColumnBlock::kColumns);
+}
+
+// Sum of how much each load has changed, over that of all loads.
+double load_change(const Columns& columns, const std::vector<double>& before) {
+  double change = 0, sum = 0;
+  auto old = before.begin();
+  for (const ColumnBlock& b : columns.blocks)
+    for (const double load : b.load) change += std::abs(load - *old++), sum += load;
+  return sum > 0 ? change / sum : 0;
+}
+
 // The velocity at which the body is in balance with the soil after s.dt. `weight`: share of gravity.
 Row find_velocity(const state::Body& body, double weight, const Situation& s, Scratch::PerBody& scratch,
                   Resistance& resistance) {
@@ -238,21 +255,24 @@ Row find_velocity(const state::Body& body, double weight, const Situation& s, Sc
     solve(inertia, change);
     add_scaled(start, change, 1);
   }
-  // What carries a chassis would press its wheel deep into the ground without the soil: then the velocity it has is
-  // nearer to the one it will have, and with it the geometry.
-  Row v = body.held_impulse == Row{} ? start : math::row(body.velocity, body.angular_velocity);
+  // Without the soil, weight or what carries a chassis would press a body that rolls deeper into the ground: the
+  // velocity it has is nearer to the one it will have, and with it the geometry.
+  const bool rolls = body.touching || body.held_impulse != Row{};
+  Row v = rolls ? math::row(body.velocity, body.angular_velocity) : start;
   if (scratch.footings.empty()) return start;
   fill_columns(body, s, scratch);
   Balance balance{body, columns.blocks, task, scratch.walls, s, start, resistance.whole, scratch.guides};
-  for (int pass = 0; pass < kPasses; ++pass) {
-    // The first pass finds the load without friction; grip then comes from the load of the pass before.
+  // Grip comes from the load of the pass before, and first from that of the last step.
+  for (int pass = 0, passes = kMostPasses; pass < passes; ++pass) {
     freeze_geometry(body, {body.position, body.orientation}, v, s, scratch);
     if (!columns.any_below) return start;
     if (pass == 0) limit_to_rim(v, s.dt, scratch.footings, columns);
     // What the next pass starts from need not be exact.
-    find_balance(balance, (pass + 1 < kPasses ? kRough : kExact) * body.spacing, v);
+    find_balance(balance, (pass + 1 < passes ? kRough : kExact) * body.spacing, v);
     std::copy(v.begin(), v.end(), task.v);
+    if (pass == 0) keep_loads(columns, scratch.loads);
     kernel.load(task, columns.blocks.data(), columns.blocks.size());
+    if (pass == 0 && load_change(columns, scratch.loads) <= kSameLoad) passes = 2;
   }
   kernel.end(task, columns.blocks.data(), columns.blocks.size());
   for (const Guide& guide : balance.guides)
@@ -260,6 +280,22 @@ Row find_velocity(const state::Body& body, double weight, const Situation& s, Sc
   balance.guides = {};
   balance.missing(v, &resistance.whole);
   return v;
+}
+
+// Columns with the load that the body had on them in the last step. What shear held of it starts from nothing: grip is
+// that of a load which carries all of the body. With that of what is left wheels would pull a tenth less, too little in
+// mud.
+void start_columns(Scratch::PerBody& scratch) {
+  constexpr std::size_t kFour = ColumnBlock::kColumns;
+  std::vector<ColumnBlock>& blocks = scratch.columns.blocks;
+  blocks.assign((scratch.footings.size() + kFour - 1) / kFour, {});
+  auto press = scratch.presses.begin();
+  for (std::size_t k = 0; k < scratch.footings.size(); ++k) {
+    const std::uint32_t vertex = scratch.footings[k].vertex;
+    while (press != scratch.presses.end() && press->vertex < vertex) ++press;
+    if (press == scratch.presses.end() || press->vertex != vertex) continue;
+    blocks[k / kFour].load[k % kFour] = press->load;
+  }
 }
 
 // Whether the soil takes so much of the speed that the step is too long to see where. Bodies that others or joints hold
@@ -301,7 +337,7 @@ void meet_soil(state::Body& body, const Situation& s, Scratch::PerBody& scratch,
   Situation part = s;
   Row way{};
   scratch.at_start.clear();
-  scratch.columns.blocks.assign((scratch.footings.size() + ColumnBlock::kColumns - 1) / ColumnBlock::kColumns, {});
+  start_columns(scratch);
   for (double left = s.dt;;) {
     const Row v = find_velocity(body, weight, part, scratch, resistance);
     if (part.dt > s.dt / kMostParts && is_impact(body, v, weight, part, scratch, speed)) {
@@ -354,7 +390,8 @@ void record_presses(state::Body& body, Scratch::PerBody& scratch) {
                                {place.x, place.y, static_cast<float>(under.height - f.above_vertex)},
                                to_float(shear),
                                static_cast<float>(columns.at(&ColumnBlock::end_plastic, k)),
-                               static_cast<float>(columns.at(&ColumnBlock::end_pressure, k))});
+                               static_cast<float>(columns.at(&ColumnBlock::end_pressure, k)),
+                               static_cast<float>(columns.at(&ColumnBlock::load, k))});
     patch.add(f.arm_x - body.position.x, f.arm_y - body.position.y, f.area);
     const double sunk = f.original - under.height;
     body.sinkage = std::max(body.sinkage, sunk);

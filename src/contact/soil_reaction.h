@@ -8,7 +8,8 @@ namespace divot::contact {
 /// be as stiff as asphalt under a body as light as a feather. Changes body.velocity, body.angular_velocity, what
 /// restitution is owed, and how each column ends the step (scratch.columns).
 /// With the geometry frozen the balance is the minimum of a convex function, which Newton's method with a line search
-/// finds; three passes let geometry and grip follow. [O(passes x iterations x footings)]
+/// finds; two or three passes let geometry and grip follow.
+/// [O(passes x iterations x footings)]
 /// Joints and other bodies are taken to give what they gave in the last step; `resistance` is what any other impulse
 /// meets.
 void meet_soil(state::Body& body, const Situation& s, Scratch::PerBody& scratch, Resistance& resistance);

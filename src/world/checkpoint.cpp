@@ -79,7 +79,7 @@ void archive(Archive& a, T& b) {
 }
 template <class Archive, Is<contact::Press> T>
 void archive(Archive& a, T& p) {
-  a(p.vertex, p.position, p.shear, p.plastic, p.pressure);
+  a(p.vertex, p.position, p.shear, p.plastic, p.pressure, p.load);
 }
 template <class Archive, Is<Profile> T>
 void archive(Archive& a, T& p) {
