@@ -74,6 +74,23 @@ DIVOT_INLINE void freeze_column(const ColumnTask& task, const laws::Medium& medi
   in.set(b.other[0], other.x), in.set(b.other[1], other.y), in.set(b.other[2], other.z);
 }
 
+/// Of the underside's speed, upward, what spin makes.
+template <class Real, class In>
+DIVOT_INLINE Real turning_of(const RealRow<Real>& v, const In in, const ColumnBlock& b) {
+  return in.get(b.turn[0]) * v.spin_x + in.get(b.turn[1]) * v.spin_y + in.get(b.turn[2]) * v.spin_z;
+}
+template <class Real, class In>
+DIVOT_INLINE Real rising_of(const RealRow<Real>& v, Real turning, const In in, const ColumnBlock& b) {
+  return in.get(b.rise[0]) * v.x + in.get(b.rise[1]) * v.y + v.z + turning;
+}
+
+/// Height of the underside at the end of the step, m.
+template <class Real, class In>
+DIVOT_INLINE Real height_of(const ColumnTask& task, const RealRow<Real>& v, const In in, const ColumnBlock& b) {
+  const Real rising = rising_of(v, turning_of(v, in, b), in, b);
+  return in.get(b.underside) + Real(task.dt) * (rising - in.get(b.rise_there));
+}
+
 /// A column's vertical push, N, >= 0, and how fast it falls with the speed at which the underside rises and with that
 /// at which the body lifts off the ground, N s/m.
 template <class Real>
@@ -85,18 +102,14 @@ DIVOT_INLINE Push<Real> push_of(const ColumnTask& task, const laws::Medium& medi
                                 const ColumnBlock& b) {
   using math::both, math::least, math::select;
   const Real zero = Real(0.0), dt = Real(task.dt);
-  const Real turning = in.get(b.turn[0]) * v.spin_x + in.get(b.turn[1]) * v.spin_y + in.get(b.turn[2]) * v.spin_z;
-  const Real rising = in.get(b.rise[0]) * v.x + in.get(b.rise[1]) * v.y + v.z + turning;
-  const Real height = in.get(b.underside) + dt * (rising - in.get(b.rise_there));
-  const auto touches = height < in.get(b.height);
+  const Real turning = turning_of(v, in, b), rising = rising_of(v, turning, in, b);
+  const auto touches = height_of(task, v, in, b) < in.get(b.height);
   if (!medium.ground) {
     // A sheet of particles without ground: their own inertia, and their bonds. A particle that a body carries already
     // moves with it; others are met at their own speed. It does not pull.
     const Real inertia = in.get(b.mass) / dt;
     const RealRow<Real> now(task.now);
-    const Real carried =
-        in.get(b.rise[0]) * now.x + in.get(b.rise[1]) * now.y + now.z +
-        (in.get(b.turn[0]) * now.spin_x + in.get(b.turn[1]) * now.spin_y + in.get(b.turn[2]) * now.spin_z);
+    const Real carried = rising_of(now, turning_of(now, in, b), in, b);
     const Real met = select(in.get(b.carried) > zero, carried, in.get(b.speed));
     const Real force = in.get(b.pull) + inertia * (met - rising);
     const auto pushes = both(touches, force > zero);
@@ -106,8 +119,8 @@ DIVOT_INLINE Push<Real> push_of(const ColumnTask& task, const laws::Medium& medi
   // A load that only moves along, slower than waves, radiates none.
   const Real lifting = Real(task.ground.x) * v.x + Real(task.ground.y) * v.y + v.z + turning;
   const auto pressure =
-      laws::ground_pressure<Real>(medium, in.get(b.fresh) - height, in.get(b.plastic), Real(task.patch),
-                                  Real(medium.elastic_stiffness), least(-rising, -lifting));
+      laws::ground_pressure<Real>(medium, in.get(b.fresh) - height_of(task, v, in, b), in.get(b.plastic),
+                                  Real(task.patch), Real(medium.elastic_stiffness), least(-rising, -lifting));
   // Only what yields is thrown out of the way.
   const Real slope = in.get(b.slope), area = in.get(b.area);
   const auto throwing = laws::throwing_pressure<Real>(medium, select(pressure.yields, -rising / slope, zero));
@@ -172,8 +185,10 @@ struct RealSums {
 template <bool kSlope, class Real, class In>
 DIVOT_INLINE void add_column(const ColumnTask& task, const laws::Medium& medium, const RealRow<Real>& v, const In in,
                              const ColumnBlock& b, RealSums<Real>& sums) {
-  using math::select;
+  using math::any, math::either, math::select;
   const Real zero = Real(0.0), grip = in.get(b.grip);
+  // A third of what is in a ball's reach is neither touched nor sheared.
+  if (!any(either(height_of(task, v, in, b) < in.get(b.height), grip > zero))) return;
   const Push<Real> push = push_of(task, medium, v, in, b);
   const Shear<Real> shear = shear_of(task, medium, v, in, b);
   const Real held = select(grip > zero, in.get(b.held), zero), lift = push.force + held;
@@ -233,9 +248,7 @@ DIVOT_INLINE void end_column(const ColumnTask& task, const laws::Medium& medium,
                              ColumnBlock& b) {
   using math::greatest, math::root, math::select;
   const Real zero = Real(0.0), one = Real(1.0), plastic = in.get(b.plastic);
-  const Real rising = in.get(b.rise[0]) * v.x + in.get(b.rise[1]) * v.y + v.z +
-                      (in.get(b.turn[0]) * v.spin_x + in.get(b.turn[1]) * v.spin_y + in.get(b.turn[2]) * v.spin_z);
-  const Real sinkage = in.get(b.fresh) - (in.get(b.underside) + Real(task.dt) * (rising - in.get(b.rise_there)));
+  const Real sinkage = in.get(b.fresh) - height_of(task, v, in, b);
   if (medium.ground) {
     const auto pressure =
         laws::ground_pressure<Real>(medium, sinkage, plastic, Real(task.patch), Real(medium.elastic_stiffness));

@@ -118,14 +118,16 @@ struct Balance {
 // Newton's method on a convex function: `missing` is its negative gradient, so a step that still goes downhill at its
 // end is taken whole, and what was found there starts the next one; a step that overshoots is cut where the slope along
 // it changes sign. Newton's error falls with the square of its step: `exact`, m, is how far the last one may take the
-// body.
-void find_balance(const Balance& balance, double exact, Row& v) {
+// body. Returns the slope's negative where that started.
+Matrix6 find_balance(const Balance& balance, double exact, Row& v) {
   const double still = exact / balance.s.dt;
   Matrix6 a;
   Row missing = balance.missing(v, &a);
+  Matrix6 slope{};
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     const Row downhill = missing;
     Row step = missing;
+    slope = a;
     solve(a, step);
     const double speed = std::sqrt(step[0] * step[0] + step[1] * step[1] + step[2] * step[2]) +
                          balance.body.radius * std::sqrt(step[3] * step[3] + step[4] * step[4] + step[5] * step[5]);
@@ -147,6 +149,7 @@ void find_balance(const Balance& balance, double exact, Row& v) {
     v = moved(v, step, low > 0 ? low : high);
     missing = balance.missing(v, &a);
   }
+  return slope;
 }
 
 // Newton's law of impact on top of the soil's plastic answer: once the soil has stopped the body, the share of the
@@ -265,16 +268,21 @@ Row find_velocity(const state::Body& body, double weight, const Situation& s, Sc
   // Grip comes from the load of the pass before, and first from that of the last step.
   for (int pass = 0, passes = kMostPasses; pass < passes; ++pass) {
     freeze_geometry(body, {body.position, body.orientation}, v, s, scratch);
-    if (!columns.any_below) return start;
+    if (!columns.any_below) {
+      resistance.whole = balance.inertia;
+      return start;
+    }
     if (pass == 0) limit_to_rim(v, s.dt, scratch.footings, columns);
     // What the next pass starts from need not be exact.
-    find_balance(balance, (pass + 1 < passes ? kRough : kExact) * body.spacing, v);
+    resistance.whole = find_balance(balance, (pass + 1 < passes ? kRough : kExact) * body.spacing, v);
     std::copy(v.begin(), v.end(), task.v);
     if (pass == 0) keep_loads(columns, scratch.loads);
     kernel.load(task, columns.blocks.data(), columns.blocks.size());
     if (pass == 0 && load_change(columns, scratch.loads) <= kSameLoad) passes = 2;
   }
   kernel.end(task, columns.blocks.data(), columns.blocks.size());
+  if (balance.guides.empty()) return v;
+  // What resists joints is without what stands in for them.
   for (const Guide& guide : balance.guides)
     add_scaled(resistance.steady, guide.line, balance.weight_of(guide) * (guide.speed - dot6(guide.line, v)));
   balance.guides = {};

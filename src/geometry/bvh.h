@@ -43,6 +43,9 @@ class Bvh {
   /// its leaf, which is then refitted by the next refit(); until then queries may miss it. [O(1)]
   bool touch(std::uint32_t face, const Vec3& corner);
 
+  /// Faces of one leaf need one touch() for a corner they share.
+  std::uint32_t leaf_of(std::uint32_t face) const { return leaf_of_.empty() ? face / kLeafFaces : leaf_of_[face]; }
+
   /// Recomputes, margin included, the leaves that touch() has found and as much above them as changes. Returns the
   /// number of boxes that changed. [O(touched leaves * log faces)]
   std::size_t refit(const Corners& corners, std::span<const Vec3> positions);
@@ -89,7 +92,6 @@ class Bvh {
     std::uint32_t first_leaf = 0, leaf_count = 0;
   };
 
-  std::uint32_t leaf_of(std::uint32_t face) const { return leaf_of_.empty() ? face / kLeafFaces : leaf_of_[face]; }
   std::uint32_t face_at(std::size_t slot) const {
     return faces_.empty() ? static_cast<std::uint32_t>(slot) : faces_[slot];
   }

@@ -303,7 +303,7 @@ double PosedPiece::outside(double x, double y, Vec3d& away) const {
     const double dx = x - position_.x, dy = y - position_.y, flat = axis_.x * axis_.x + axis_.y * axis_.y;
     const double half = piece_->kind == Kind::capsule ? piece_->half_length : 0;
     const double along = flat > 1e-12 ? std::clamp((dx * axis_.x + dy * axis_.y) / flat, -half, half) : 0;
-    const double px = dx - along * axis_.x, py = dy - along * axis_.y, distance = std::hypot(px, py);
+    const double px = dx - along * axis_.x, py = dy - along * axis_.y, distance = std::sqrt(px * px + py * py);
     away = distance > 0 ? Vec3d{px / distance, py / distance, 0} : Vec3d{1, 0, 0};
     return distance - piece_->radius;
   }

@@ -46,6 +46,14 @@ DIVOT_INLINE DoubleLanes select(DoubleMask condition, DoubleLanes yes, DoubleLan
   return condition.v ? yes.v : no.v;
 }
 DIVOT_INLINE DoubleMask both(DoubleMask a, DoubleMask b) { return {a.v & b.v}; }
+DIVOT_INLINE DoubleMask either(DoubleMask a, DoubleMask b) { return {a.v | b.v}; }
+DIVOT_INLINE bool any(DoubleMask mask) {
+#ifdef __AVX__
+  return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask.v)) != 0;
+#else
+  return (mask.v[0] | mask.v[1] | mask.v[2] | mask.v[3]) != 0;
+#endif
+}
 
 DIVOT_INLINE DoubleLanes least(DoubleLanes a, DoubleLanes b) {
 #ifdef __AVX__

@@ -17,6 +17,8 @@ namespace divot::math {
 inline float select(bool condition, float yes, float no) { return condition ? yes : no; }
 inline double select(bool condition, double yes, double no) { return condition ? yes : no; }
 inline bool both(bool a, bool b) { return a && b; }
+inline bool either(bool a, bool b) { return a || b; }
+inline bool any(bool yes) { return yes; }
 
 /// The lesser and the greater; `a` when they are equal or cannot be compared.
 inline float least(float a, float b) { return b < a ? b : a; }

@@ -31,8 +31,12 @@ void refit_moved(Tree& tree, const state::Surface& surface) {
   const geometry::Bisection& bisection = surface.bisection;
   for (const std::uint32_t vertex : tree.moved) {
     if (bisection.any() && vertex >= bisection.base_vertex_count()) continue;  // no corner of a face in the tree
+    // Of the faces round a vertex of a grid, most share their leaf with the one before.
+    std::uint32_t last = kNone;
     surface.mesh.for_each_face(vertex, [&](std::uint32_t face) {
-      tree.bvh.touch(bisection.any() ? bisection.base_of(face) : face, surface.position[vertex]);
+      const std::uint32_t base = bisection.any() ? bisection.base_of(face) : face, leaf = tree.bvh.leaf_of(base);
+      if (leaf != last) tree.bvh.touch(base, surface.position[vertex]);
+      last = leaf;
     });
   }
   tree.refits += tree.bvh.refit(corners_of(surface), surface.position) > 0;
