@@ -17,7 +17,7 @@ struct Site {
               geometry::Bvh::Order::as_numbered, Jobs(1));
   }
   state::Blast detonate(const Bomb& bomb, Blast model = Blast::scaled) {
-    return events::detonate(bomb, model, {2, 1.0 / 60, 9.81}, surface, soil, bvh, media, scratch);
+    return events::detonate(bomb, model, {2, 1.0 / 60, 9.81}, {}, surface, soil, bvh, media, scratch);
   }
   state::Surface surface;
   state::Soil soil;
@@ -255,13 +255,56 @@ TEST(EventsCrater, TwoThatOverlapAreDeeperThanOne) {
   EXPECT_GT(both.craters()[1].depth, single.craters()[0].depth);
 }
 
-// Two at the same time and place push twice, in the order of the scene.
-TEST(EventsCrater, TwoAtOnceAreTwoAtOnce) {
-  Scene scene = crater_scene(1);
-  scene.bombs.push_back(scene.bombs[0]);
-  const World world = blow(scene);
-  EXPECT_EQ(world.craters().size(), 2u);
-  EXPECT_GT(world.craters()[0].depth, crater_of(crater_scene(1)).depth);
+// Energies add up, and not depths.
+TEST(EventsCrater, TwoAtOnceMakeTheCraterOfTheirSum) {
+  Scene apart = crater_scene(1), sum = apart;
+  apart.bombs.push_back(apart.bombs[0]);
+  apart.bombs[1].yield = 0.5;
+  sum.bombs[0].yield = 1.5;
+  const Crater expected = crater_of(sum);
+  const World world = blow(apart);
+  ASSERT_EQ(world.craters().size(), 2u);
+  for (const Crater& crater : world.craters()) {
+    EXPECT_NEAR(crater.depth, expected.depth, 0.01 * expected.depth);
+    EXPECT_NEAR(crater.width, expected.width, 0.01 * expected.width);
+    EXPECT_NEAR(crater.lip_height, expected.lip_height, 0.03 * expected.lip_height);
+  }
+  EXPECT_LT(std::abs(world.soil_volume().displaced - blow(sum).soil_volume().displaced),
+            0.02 * blow(sum).soil_volume().displaced);
+}
+
+// While the first crater is made, the second charge still finds the ground that it was laid on.
+TEST(EventsCrater, TwoNearlyAtOnceAreNearlyTheirSum) {
+  Scene apart = crater_scene(1), sum = apart;
+  apart.bombs.push_back(apart.bombs[0]);
+  apart.bombs[1].time += 0.05;
+  sum.bombs[0].yield = 2;
+  const Crater expected = crater_of(sum), crater = crater_of(apart);
+  EXPECT_NEAR(crater.depth, expected.depth, 0.02 * expected.depth);
+  EXPECT_NEAR(crater.width, expected.width, 0.07 * expected.width);
+}
+
+// From one crater to two as they move apart, whichever is the scene's first; a small charge hardly counts.
+TEST(EventsCrater, ChargesAsideShareWhatBothBreak) {
+  const double one = blow(crater_scene(1)).soil_volume().displaced;
+  double last = 2.05 * one;
+  for (const double apart : {0.0, 1.0, 3.0}) {
+    Scene scene = crater_scene(1);
+    scene.bombs.push_back(scene.bombs[0]);
+    scene.bombs[1].position.x += apart;
+    const double volume = blow(scene).soil_volume().displaced;
+    EXPECT_LT(volume, last) << apart;
+    EXPECT_GT(volume, 1.4 * one) << apart;
+    last = volume + 0.02 * one;
+  }
+  for (const bool small_first : {false, true}) {
+    Scene scene = crater_scene(1);
+    scene.bombs.push_back(scene.bombs[0]);
+    Bomb& small = scene.bombs[small_first ? 0 : 1];
+    small.yield = 0.005;
+    small.position.x += 3;
+    EXPECT_NEAR(blow(scene).soil_volume().displaced, one, 0.03 * one) << small_first;
+  }
 }
 
 // Down a slope along x nothing tells left from right.

@@ -26,8 +26,9 @@ void push_paper(const Bomb& bomb, double height, state::Blast& blast, state::Sur
 
 }  // namespace
 
-state::Blast detonate(const Bomb& bomb, Blast model, const Moment& moment, state::Surface& surface, state::Soil& soil,
-                      const geometry::Bvh& bvh, std::span<const laws::Medium> media, state::RegionScratch& scratch) {
+state::Blast detonate(const Bomb& bomb, Blast model, const Moment& moment, std::span<state::Blast> earlier,
+                      state::Surface& surface, state::Soil& soil, const geometry::Bvh& bvh,
+                      std::span<const laws::Medium> media, state::RegionScratch& scratch) {
   // A pulse much shorter than the step is stretched to what the substeps can follow: the scaled crater does not depend
   // on it.
   state::Blast blast{.direction = {0, 0, -1},
@@ -41,7 +42,7 @@ state::Blast detonate(const Bomb& bomb, Blast model, const Moment& moment, state
   if (!ground.found) return blast;  // beside the terrain, or over a hole
   const double height = burst.z - ground.position.z;
   if (model == Blast::scaled)
-    push_scaled({bomb.yield, height, moment.gravity}, blast, surface, soil, bvh, media, scratch);
+    push_scaled({bomb.yield, height, moment.gravity}, blast, earlier, surface, soil, bvh, media, scratch);
   else
     push_paper(bomb, std::max(0.0, height), blast, surface, soil, bvh, scratch);
   blast.active = !blast.column.empty();

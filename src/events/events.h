@@ -29,8 +29,11 @@ struct Moment {
 
 /// What a bomb does to the ground. A blast that reaches no vertex pushes nothing and is inactive.
 /// `bomb.position` is in the terrain's coordinates; to the paper's model a burst below the ground is one at the ground.
-state::Blast detonate(const Bomb& bomb, Blast model, const Moment& moment, state::Surface& surface, state::Soil& soil,
-                      const geometry::Bvh& bvh, std::span<const laws::Medium> media, state::RegionScratch& scratch);
+/// Charges of the scaled model whose ground is not at rest yet (`earlier`) make a common crater with it where both
+/// reach.
+state::Blast detonate(const Bomb& bomb, Blast model, const Moment& moment, std::span<state::Blast> earlier,
+                      state::Surface& surface, state::Soil& soil, const geometry::Bvh& bvh,
+                      std::span<const laws::Medium> media, state::RegionScratch& scratch);
 
 /// Ground that the blast pushes is let go by what carried it and, in the scaled model, flows until it comes to rest.
 /// For the step in which it went off, when all that it pushes is awake.

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "events/targets.h"
+#include "events/together.h"
 #include "laws/crater.h"
 #include "laws/crust.h"
 
@@ -128,13 +129,23 @@ void set_heights(state::Blast& blast, const std::vector<Landing>& landing, doubl
 
 }  // namespace
 
-void push_scaled(const Burst& given, state::Blast& blast, state::Surface& surface, state::Soil& soil,
-                 const geometry::Bvh& bvh, std::span<const laws::Medium> media, state::RegionScratch& scratch) {
+void push_scaled(const Burst& given, state::Blast& blast, std::span<state::Blast> earlier, state::Surface& surface,
+                 state::Soil& soil, const geometry::Bvh& bvh, std::span<const laws::Medium> media,
+                 state::RegionScratch& scratch) {
   Burst burst = given;
   if (const double radius = crater_sizes(burst, media).largest; radius > 0) {
     blast.direction = into_ground(surface, targets(blast, radius, surface, bvh, scratch));
     face_slope(burst, blast, surface, bvh, scratch);
   }
+  // What is on its way down counts as it stood.
+  const Company company(blast, earlier, surface, soil);
+  const double sunk = company.ground_zero_sunk();
+  blast.ground_zero -= static_cast<float>(sunk) * blast.direction;
+  burst.height -= sunk;
+  blast.height = burst.height;
+  const double alone = crater_sizes(burst, media).largest;
+  if (alone == 0) return;
+  company.join(burst, blast, alone);
   const Sizes sizes = crater_sizes(burst, media);
   blast.radius = sizes.largest;
   if (sizes.largest == 0) return;
@@ -147,7 +158,8 @@ void push_scaled(const Burst& given, state::Blast& blast, state::Surface& surfac
   std::vector<Landing> landing;
   for (const Target& t : reached) {
     const laws::CraterSize& size = sizes.of[surface.material[t.vertex]];
-    const double deep = size.radius > 0 ? size.depth * laws::crater_profile(t.radius, t.above, size.radius) : 0;
+    const double above = t.above + company.sunk(t.vertex);
+    const double deep = size.radius > 0 ? size.depth * laws::crater_profile(t.radius, above, size.radius) : 0;
     if (deep > 0) {
       const std::uint32_t column = state::touch_column(surface, soil, t.vertex);
       const double leaves = sizes.leaves[surface.material[t.vertex]];
@@ -170,6 +182,7 @@ void push_scaled(const Burst& given, state::Blast& blast, state::Surface& surfac
   }
   set_heights(blast, landing, thrown, heaved, soil);
   blast.flow_rate = static_cast<float>(1 / (2 * blast.pulse));
+  share_ground(blast, earlier, soil);
 }
 
 }  // namespace divot::events

@@ -18,8 +18,10 @@ struct Burst {
 };
 
 /// Fills in what the blast does: each column's own soil says how far it fails and how deep it flows, and what leaves
-/// the crater lands and heaves up around it. `blast` has its ground zero and pulse.
-void push_scaled(const Burst& burst, state::Blast& blast, state::Surface& surface, state::Soil& soil,
-                 const geometry::Bvh& bvh, std::span<const laws::Medium> media, state::RegionScratch& scratch);
+/// the crater lands and heaves up around it. `blast` has its ground zero and pulse. With `earlier` blasts that still
+/// act it makes common craters (events/together.h).
+void push_scaled(const Burst& burst, state::Blast& blast, std::span<state::Blast> earlier, state::Surface& surface,
+                 state::Soil& soil, const geometry::Bvh& bvh, std::span<const laws::Medium> media,
+                 state::RegionScratch& scratch);
 
 }  // namespace divot::events

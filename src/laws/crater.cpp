@@ -108,6 +108,15 @@ double leaving_share(const CraterSize& crater, double buried, double compaction_
   return std::clamp(1 - capacity / volume, crater.lip_share, 1.0);
 }
 
+double overlap(double radius_a, double radius_b, double distance) {
+  const double small = std::min(radius_a, radius_b), both = radius_a + radius_b, apart = radius_a - radius_b;
+  if (small <= 0 || distance >= both) return 0;
+  if (distance <= std::abs(apart)) return 1;
+  const double lens = (both - distance) * (both - distance) *
+                      (distance * distance + 2 * distance * both - 3 * apart * apart) / (12 * distance);
+  return std::min(1.0, lens / (4.0 / 3 * small * small * small));
+}
+
 double ejecta_profile(double ratio) {
   if (ratio <= 1 || ratio >= kEjectaEnd) return 0;
   if (ratio < kCrest) return smooth((ratio - 1) / (kCrest - 1));

@@ -23,6 +23,9 @@ double crater_profile(double radius, double above, double crater_radius);
 /// by compaction. `buried`: depth of burst, m.
 double leaving_share(const CraterSize& crater, double buried, double compaction_limit);
 
+/// Share of the smaller of two spheres of broken ground, >= 0 m in radius, that lies in the other, [0, 1].
+double overlap(double radius_a, double radius_b, double distance);
+
 /// Height of what was thrown (ejecta) and of what was pushed up (upthrust) at `ratio` crater radii from ground zero,
 /// each 1 at the crest; 0 inside the crater.
 double ejecta_profile(double ratio);

@@ -12,6 +12,7 @@ struct Blast {
   Vec3 ground_zero;     ///< m, on the ground, relative to the surface's origin
   Vec3 direction;       ///< unit, into the ground: what the pressure pushes along
   double yield = 0;     ///< t of TNT
+  double height = 0;    ///< m, of the charge over ground zero, negative: buried
   double start = 0;     ///< s, of the step in which it went off
   double pulse = 0;     ///< s, duration of the pressure pulse, which falls linearly to 0
   float flow_rate = 0;  ///< 1/s, drag of the ground it makes flow; 0: the ground keeps its skeleton

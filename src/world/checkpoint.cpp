@@ -35,7 +35,7 @@ void archive(Archive& a, T& b) {
 }
 template <class Archive, Is<state::Blast> T>
 void archive(Archive& a, T& b) {
-  a(b.ground_zero, b.direction, b.yield, b.start, b.pulse, b.flow_rate, b.column, b.push, b.thrown, b.landing,
+  a(b.ground_zero, b.direction, b.yield, b.height, b.start, b.pulse, b.flow_rate, b.column, b.push, b.thrown, b.landing,
     b.landing_height, b.radius, b.active);
 }
 template <class Archive, Is<Sphere> T>

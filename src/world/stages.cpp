@@ -121,7 +121,7 @@ void World::Impl::set_off_bombs() {
       if (!is_due(planned)) continue;
       planned.exploded = true;
       blasts.push_back(events::detonate(planned.bomb, scene.solver.blast, {time(), scene.dt, length(scene.gravity)},
-                                        surface, soil, tree.bvh, media, region_scratch));
+                                        blasts, surface, soil, tree.bvh, media, region_scratch));
       for (const std::uint32_t column : blasts.back().column) wake.push_back(soil.vertex[column]);
       for (const std::uint32_t column : blasts.back().landing) wake.push_back(soil.vertex[column]);
     }
