@@ -1,5 +1,6 @@
 #include "laws/medium.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -35,7 +36,9 @@ Medium make_medium(const Material& material) {
            .ejecta_share = f(material.ejecta_share)};
   m.ground_damping = 2 * f(material.ground_damping_ratio) * std::sqrt(m.elastic_stiffness * m.areal_mass);
   const auto even = [](float e) { return e == 2 * std::floor(e / 2); };
-  if (even(m.attraction) && even(m.repulsion)) {
+  // Products of so many factors cost less than a power function.
+  constexpr float kMostFactors = 32;
+  if (even(m.attraction) && even(m.repulsion) && std::max(m.attraction, m.repulsion) <= 2 * kMostFactors) {
     m.half_attraction = static_cast<int>(m.attraction) / 2;
     m.half_repulsion = static_cast<int>(m.repulsion) / 2;
   }

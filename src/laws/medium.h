@@ -17,7 +17,7 @@ struct Medium {
   float bond_energy = 0;       ///< J/m^2: e0 of a bond is this times its rest length squared
   float attraction = 0;        ///< m of eq. 6
   float repulsion = 0;         ///< n of eq. 6
-  int half_attraction = 0;     ///< m / 2 where both exponents are even (no root, no power function), else 0
+  int half_attraction = 0;     ///< m / 2 where both exponents are even and small (no power function), else 0
   int half_repulsion = 0;      ///< n / 2 likewise
   float spring_stiffness = 0;  ///< k_s of eq. 1, N/m
   float yield_strain = 0;

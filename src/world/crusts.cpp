@@ -7,10 +7,11 @@ namespace divot {
 namespace {
 
 // What has sunk by more than the thickness of its crust has none left, whatever drove it down.
-void find_sunk(const state::Particles& p, const state::Soil& soil, std::span<const laws::Medium> media,
-               std::vector<std::uint32_t>& broken) {
+void find_sunk(const state::Particles& p, const state::Soil& soil, const state::Surface& surface,
+               std::span<const laws::Medium> media, std::vector<std::uint32_t>& broken) {
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const laws::Medium& medium = media[p.material[i]];
+    // Of the surface: a particle may not have heard yet that a blast broke its crust.
+    const laws::Medium& medium = media[surface.material[p.vertex[i]]];
     if (p.hold[i] == Hold::anchor || medium.below == laws::kNoLayer) continue;
     if (soil.original[p.column[i]].z - p.z[i] > medium.thickness) broken.push_back(p.vertex[i]);
   }
@@ -21,7 +22,7 @@ void find_sunk(const state::Particles& p, const state::Soil& soil, std::span<con
 bool World::Impl::break_crusts() {
   if (std::ranges::none_of(media, [](const laws::Medium& m) { return m.below != laws::kNoLayer; })) return false;
   contact::find_punched(contact_scratch, surface, soil, media, broken);
-  find_sunk(particles, soil, media, broken);
+  find_sunk(particles, soil, surface, media, broken);
   std::sort(broken.begin(), broken.end());
   broken.erase(std::unique(broken.begin(), broken.end()), broken.end());
   // For good: from now on the ground there is what lay below.
