@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "bench/stepping.h"
 
@@ -24,17 +25,26 @@ constexpr std::array<Setup, 2> kSetups = {
     Setup{"rolling_5cm", 4, {Peer{1, 1.40, 1.59}, Peer{10, 17.4, 28.4}, Peer{100, 215, 340}}},
     Setup{"rolling_2cm", 4, {Peer{1, 8.6, 10.5}, Peer{0, 0, 0}, Peer{0, 0, 0}}}};
 
-// The file's sphere, and as many more beside it, each on ground of its own.
+// The file's sphere with what keeps its speed, and as many more beside it, each on ground of its own.
 Scene widened(Scene scene, int spheres, double lane) {
   auto& grid = std::get<GridTerrain>(scene.terrain.shape);
   grid.rows = static_cast<int>(std::lround(spheres * lane / grid.spacing)) + 1;
-  const BodySettings first = scene.bodies.at(0);
-  scene.bodies.clear();
+  const auto bodies = std::exchange(scene.bodies, {});
+  const auto joints = std::exchange(scene.joints, {});
+  const auto numbered = [](const std::string& name, int k) {
+    return name.empty() ? name : fmt::format("{} {}", name, k + 1);
+  };
   for (int k = 0; k < spheres; ++k) {
-    BodySettings sphere = first;
-    sphere.name = fmt::format("sphere {}", k + 1);
-    sphere.position.y = lane * (k - 0.5 * (spheres - 1));
-    scene.bodies.push_back(sphere);
+    for (BodySettings body : bodies) {
+      body.name = numbered(body.name, k);
+      body.position.y = lane * (k - 0.5 * (spheres - 1));
+      scene.bodies.push_back(body);
+    }
+    for (Joint joint : joints) {
+      joint.name = numbered(joint.name, k);
+      joint.first = numbered(joint.first, k), joint.second = numbered(joint.second, k);
+      scene.joints.push_back(joint);
+    }
   }
   return scene;
 }
@@ -47,7 +57,7 @@ Result<std::string> drive(const Scene& file, Report& report) {
   Scene scene = widened(file, 1, 4);
   auto& grid = std::get<GridTerrain>(scene.terrain.shape);
   grid.columns = static_cast<int>(std::lround(kLength / grid.spacing)) + 1;
-  scene.bodies[0].position.x = -0.5 * kLength + 3;
+  for (BodySettings& body : scene.bodies) body.position.x = -0.5 * kLength + 3;
   auto world = World::create(scene, std::make_shared<const Jobs>(1));
   if (!world) return tl::unexpected(world.error());
   std::string text;
