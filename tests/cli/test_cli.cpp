@@ -337,7 +337,7 @@ TEST_F(Cli, InterruptedRunKeepsWhatThereIs) {
   // Once it has written a frame, it is past its start on any machine.
   const Outcome outcome = test::run_program(
       {"run", "ball.toml", "--set", "duration=1e6", "--set", "output.every=1", "--set", "output.formats=[\"csv\"]"},
-      folder_, {.due = [&] { return fs::exists(folder_ / "o/frame_000002.csv"); }});
+      folder_, {.due = [&] { return fs::exists(folder_ / "out/ball/frame_000002.csv"); }});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.err.find("interrupted"), std::string::npos);
   EXPECT_EQ(line_count(outcome.err), 1u) << outcome.err;
