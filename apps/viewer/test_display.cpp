@@ -99,9 +99,10 @@ int Process::wait(double seconds) {
 }
 
 TestDisplay::TestDisplay() : log_(std::filesystem::temp_directory_path() / fmt::format("divot_display_{}", getpid())) {
-  // The server chooses a free number and prints it.
-  const std::vector<std::string> command = {"Xvfb",        "-displayfd", "1",   "-screen",   "0",
-                                            "1000x800x24", "+extension", "GLX", "-nolisten", "tcp"};
+  // The server chooses a free number and prints it. Without -noreset it would begin anew, and drop who connects just
+  // then, whenever its last client leaves, as xdotool does after each call.
+  const std::vector<std::string> command = {"Xvfb", "-displayfd", "1",   "-screen", "0", "1000x800x24", "+extension",
+                                            "GLX",  "-nolisten",  "tcp", "-noreset"};
   server_ = std::make_unique<Process>(command, std::vector<std::string>{}, ".", log_);
   const std::string number = insist(
       [&]() -> std::string {
