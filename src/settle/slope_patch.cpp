@@ -168,7 +168,7 @@ float SlopePatch::slide(double dt, const Jobs& jobs) {
         c.moved = true;
         comes += std::min({slide.wanted * dt, faces_[meets_[m] / 3].stable, slide.most}) * slide.share[meets_[m] % 3];
       }
-      const double rises = comes == 0 ? 0 : comes / c.area;
+      const double rises = c.area > 0 ? comes / c.area : 0;  // as bring() has it
       c.came += comes, c.now += rises;
       c.loose = std::max(0.0, c.loose + rises);
       rose_[v] = static_cast<float>(std::abs(rises));

@@ -40,7 +40,7 @@ class SlopePatch {
   }
 
  private:
-  // A vertex. Heights are relative to nothing: of the surface, and of it before the first touch.
+  // A vertex: height of the surface there, and before the first touch.
   struct Corner {
     double now = 0, then = 0, loose = 0;  // m
     double came = 0;                      // m^3
