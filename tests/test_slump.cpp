@@ -105,6 +105,18 @@ TEST(Slump, TheHeapDependsNeitherOnTheStepNorOnTheSpacing) {
   EXPECT_NEAR(height(0.05, 1.0 / 60), reference, 0.1 * reference);
 }
 
+// Beside a track that goes on and on slopes must not creep towards rest for ever.
+TEST(Slump, ALongSlopeComesToRestInAFiniteTime) {
+  for (const double spacing : {0.1, 0.05}) {
+    Slope s({.columns = static_cast<int>(4 / spacing) + 1, .rows = 9, .spacing = spacing}, "dry_sand");
+    const auto count = static_cast<std::uint32_t>(s.surface.position.size());
+    for (std::uint32_t v = 0; v < count; ++v)
+      if (s.surface.position[v].x < -1e-4f) s.dig(v, 0.3 * state::vertex_area(s.surface, v));
+    EXPECT_LT(s.rest(1.0 / 500), 1) << spacing;
+    EXPECT_LE(s.steepest_deg(), kRepose + 1) << spacing;
+  }
+}
+
 TEST(Slump, OnlyWhatWasDisturbedSlides) {
   // A slope of 45 degrees, steeper than sand can rest, as a model of real ground may hold.
   Slope s({.columns = 41, .rows = 41, .spacing = 0.1, .height = [](double x, double) { return x; }}, "dry_sand");

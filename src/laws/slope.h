@@ -28,8 +28,12 @@ inline double critical_height(const Medium& s, double gravity) {
 /// the safe side of [Taylor 1937], whose slopes stand H (1 - x)^2 to H (1 - x)^4 high.
 inline double counted_height(double excess, double slope, double rest) { return excess * (1 - rest / slope); }
 
-/// How easily ground flows down a slope, m^2/s: soil beyond the angle of repose, in a layer a third as thick as the
-/// whole slide is high, moves as fast as something that fell so far.
+/// What a slide is faster by the more it exceeds its slope of `rest`: of the height that it falls friction takes the
+/// share rest / slope, and speed goes with the root of what is left. It stops in a finite time.
+inline double root_of_excess(double slope, double rest) { return std::sqrt(1 - rest / slope); }
+
+/// How easily ground flows down a slope, m^2/s: in a layer a third as thick as the whole slide is high, soil moves as
+/// fast as something that fell so far.
 inline double slide_mobility(double height, double gravity) { return 0.3 * height * std::sqrt(gravity * height); }
 
 }  // namespace divot::laws

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "laws/slope.h"
 
@@ -135,14 +134,15 @@ SlopePatch::Slide SlopePatch::look_at(const SlopeLaws& slope_laws, const Face& f
     low = std::min(low, corners_[c].now);
     height = std::max(height, std::abs(corners_[c].now - corners_[c].then));
   }
-  // Soil that a flow through the face brings to each of its corners: linear finite elements.
-  const double share = 0.5 * face.area * (1 - rest / slope);
+  // Soil that a flow through the face brings to each of its corners: linear finite elements. Next to rest the root is
+  // steep: no more flows than evens out what the corners' slopes differ by.
+  const double root = laws::root_of_excess(slope, rest), share = 0.5 * face.area * root;
   Slide slide{.wanted = laws::slide_mobility(std::max(height, top.now - low), slope_laws.gravity),
-              .most = std::numeric_limits<double>::infinity()};
+              .most = face.stable * root};
   for (std::uint32_t k = 0; k < 3; ++k) slide.share[k] = -share * (g.x * face.pull[k].x + g.y * face.pull[k].y);
   // What lies loose on ground that stands goes, but takes none of that ground along: the face's part of the column.
   if (const double leaves = -slide.share[highest]; only_loose && leaves > 0)
-    slide.most = top.loose * face.area / 6 / leaves;
+    slide.most = std::min(slide.most, top.loose * face.area / 6 / leaves);
   return slide;
 }
 
@@ -166,7 +166,7 @@ float SlopePatch::slide(double dt, const Jobs& jobs) {
         const Slide& slide = slides_[meets_[m] / 3];
         if (slide.wanted == 0) continue;
         c.moved = true;
-        comes += std::min({slide.wanted * dt, faces_[meets_[m] / 3].stable, slide.most}) * slide.share[meets_[m] % 3];
+        comes += std::min(slide.wanted * dt, slide.most) * slide.share[meets_[m] % 3];
       }
       const double rises = c.area > 0 ? comes / c.area : 0;  // as bring() has it
       c.came += comes, c.now += rises;

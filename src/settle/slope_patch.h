@@ -63,7 +63,7 @@ class SlopePatch {
   struct Slide {
     std::array<double, 3> share{};  // soil that it brings to each corner, m^3 per unit of mobility and time
     double wanted = 0;              // mobility of the ground, m^2/s; 0: it rests
-    double most = 0;                // mobility times time after which all loose soil is gone, m^2
+    double most = 0;                // mobility times time that it takes without overshooting, or all loose soil, m^2
   };
 
   template <class Height>
