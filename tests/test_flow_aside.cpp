@@ -25,7 +25,7 @@ TEST(Compaction, LooseSoilOnTopIsSoftAndWhatIsBelowStaysHard) {
   Ground ground{s.particles, s.soil, s.surface, moved};
   const std::uint32_t c = s.particles.column[12];
   s.soil.plastic[c] = 0.1f, s.soil.rest[c].z = -0.1f, s.surface.position[12].z = s.particles.z[12] = -0.1f;
-  const float area = state::vertex_area(s.surface, 12);
+  const auto area = static_cast<float>(state::vertex_area(s.surface, 12));
   EXPECT_NEAR(bring(ground, c, 0.04 * area), 0.04f, 1e-6f);
   EXPECT_NEAR(s.soil.plastic[c], 0.06f, 1e-6f);
   EXPECT_NEAR(s.soil.fresh_height(c), 0, 1e-6f) << "pressed down again it is as hard as it was";

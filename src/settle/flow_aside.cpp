@@ -227,7 +227,8 @@ float lay_beside(Ground& ground, const Sectors& room, const Sectors& volume, con
     if (room[low] > 0) comes += volume[low] * (1 - share) * b.weight / room[low];
     if (room[high] > 0) comes += volume[high] * share * b.weight / room[high];
     if (comes <= 0) continue;
-    highest = std::max(highest, bring(ground, state::touch_column(ground.surface, ground.soil, b.vertex), comes));
+    const std::uint32_t column = state::touch_column(ground.surface, ground.soil, b.vertex);
+    highest = std::max(highest, bring(ground, column, comes, b.area));
   }
   return highest;
 }
@@ -244,7 +245,8 @@ void flow_from_under(const state::Body& body, std::span<const std::uint32_t> car
     // Ahead over the whole heap, which goes on as it is; elsewhere next to the patch.
     const double ahead = std::max(0.0, dot(unit(place_of(ground, b.vertex) - Flat{b.x, b.y}), going));
     const double share_here = std::clamp((slope + ahead * heap - b.distance) / slope, 0.0, 1.0);
-    b.weight = state::vertex_area(ground.surface, b.vertex) * share_here;
+    b.area = state::vertex_area(ground.surface, b.vertex);
+    b.weight = b.area * share_here;
     b.side = patch.side_of(patch.to_circle(Flat{b.x, b.y} - patch.centre));
     const auto [low, high, share] = split(b.side);
     room[low] += (1 - share) * b.weight, room[high] += share * b.weight;

@@ -19,6 +19,7 @@ struct FlowScratch {
     std::uint32_t vertex = 0;
     double distance = 0;  ///< m, along edges from what the body presses
     double x = 0, y = 0;  ///< m, of the patch's edge on the way there
+    double area = 0;      ///< m^2, state::vertex_area()
     double weight = 0;    ///< of the soil that comes to this side
     double side = 0;      ///< where round the patch, in sectors
   };

@@ -5,16 +5,19 @@
 namespace divot::settle {
 
 float bring(Ground& ground, std::uint32_t column, double volume) {
+  return bring(ground, column, volume, state::vertex_area(ground.surface, ground.soil.vertex[column]));
+}
+
+float bring(Ground& ground, std::uint32_t column, double volume, double area) {
+  if (!(area > 0)) return 0;
   state::Soil& soil = ground.soil;
   const std::uint32_t vertex = soil.vertex[column], i = soil.particle[column];
-  const float area = state::vertex_area(ground.surface, vertex);
-  if (!(area > 0)) return 0;
-  Vec3 place = ground.surface.position[vertex];
-  const float before = place.z;
-  place.z += static_cast<float>(volume) / area;
+  float& z = ground.surface.position[vertex].z;
+  const float before = z;
+  z += static_cast<float>(volume / area);
   // Floats far from the origin take coarse steps: the books get what the surface did.
-  const double rose = -state::move_vertex(ground.surface, vertex, place);
-  const float height = place.z - before;
+  const float height = z - before;
+  const double rose = area * (static_cast<double>(z) - static_cast<double>(before));
   soil.gained[column] += volume;
   soil.compacted[column] += volume - rose;
   soil.rest[column].z += height;

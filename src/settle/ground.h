@@ -24,7 +24,7 @@ struct Moved {
   float free_distance = 0;              ///< m, nor did any that no body carried
 };
 
-/// The ground that this stage moves, by follow(), state::move_vertex() and bring() alone, all exact in volume.
+/// The ground that this stage moves, by follow() and bring() alone, both exact in volume.
 struct Ground {
   state::Particles& particles;
   state::Soil& soil;
@@ -36,5 +36,7 @@ struct Ground {
 /// column's books say so. Soil that comes is as soft as untouched ground; what was compacted below it stays as hard as
 /// it was. Returns how far the ground rose, m. [O(valence)]
 float bring(Ground& ground, std::uint32_t column, double volume);
+/// The same where the volume that the column gains by rising, state::vertex_area(), is known. [O(1)]
+float bring(Ground& ground, std::uint32_t column, double volume, double area);
 
 }  // namespace divot::settle

@@ -32,19 +32,20 @@ class SlopePatch {
   /// Lets them slide for `dt` seconds. Returns how far a vertex rose or fell at most, m.
   float slide(double dt, const Jobs& jobs);
 
-  /// Calls `f(vertex, volume)` for each vertex that something slid at, ascending: the soil that came to it, m^3.
+  /// Calls `f(vertex, volume, area)` for each vertex that something slid at, ascending: the soil that came to it, m^3,
+  /// and its vertex_area().
   template <class F>
   void for_each_moved(F f) const {
     for (std::size_t v = 0; v < corners_.size(); ++v)
-      if (corners_[v].moved) f(vertices_[v], corners_[v].came);
+      if (corners_[v].moved) f(vertices_[v], corners_[v].came, corners_[v].area);
   }
 
  private:
   // A vertex: height of the surface there, and before the first touch.
   struct Corner {
     double now = 0, then = 0, loose = 0;  // m
-    double came = 0;                      // m^3
-    float area = 0, excess = 0;           // m^2, m
+    double came = 0, area = 0;            // m^3, m^2
+    float excess = 0;                     // m
     std::uint8_t material = 0;
     bool moved = false;
   };

@@ -182,8 +182,8 @@ void slump(Ground& ground, std::span<const laws::Medium> media, double gravity, 
     if (sweep == 0) sweeps = static_cast<int>(std::clamp<double>(std::ceil(overshoots), 1, kMostSweeps));
     distance += scratch.patch.slide(dt / sweeps, jobs);
   }
-  scratch.patch.for_each_moved([&](std::uint32_t vertex, double volume) {
-    bring(ground, state::touch_column(ground.surface, ground.soil, vertex), volume);
+  scratch.patch.for_each_moved([&](std::uint32_t vertex, double volume, double area) {
+    bring(ground, state::touch_column(ground.surface, ground.soil, vertex), volume, area);
     scratch.next.push_back(vertex);
   });
   ground.moved.distance += distance, ground.moved.free_distance += distance;

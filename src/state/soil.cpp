@@ -2,12 +2,12 @@
 
 namespace divot::state {
 
-float vertex_area(const Surface& surface, std::uint32_t vertex) {
-  float sum = 0;
-  const Vec3 p = surface.position[vertex];
+double vertex_area(const Surface& surface, std::uint32_t vertex) {
+  double sum = 0;
+  const Vec3d p = to_double(surface.position[vertex]);
   surface.mesh.for_each_outgoing(vertex, [&](std::uint32_t h) {
-    const Vec3 a = surface.position[surface.mesh.target(h)] - p;
-    const Vec3 b = surface.position[surface.mesh.origin(geometry::HalfEdgeMesh::prev(h))] - p;
+    const Vec3d a = to_double(surface.position[surface.mesh.target(h)]) - p;
+    const Vec3d b = to_double(surface.position[surface.mesh.origin(geometry::HalfEdgeMesh::prev(h))]) - p;
     sum += a.x * b.y - a.y * b.x;
   });
   return sum / 6;
@@ -57,7 +57,7 @@ std::uint32_t touch_column(Surface& surface, Soil& soil, std::uint32_t vertex) {
   soil.rest.push_back(surface.position[vertex]);
   soil.plastic.push_back(0);
   soil.shear.push_back({});
-  soil.area.push_back(vertex_area(surface, vertex));
+  soil.area.push_back(static_cast<float>(vertex_area(surface, vertex)));
   soil.cell.push_back(cell_area(surface, vertex));
   soil.gained.push_back(0);
   soil.compacted.push_back(0);

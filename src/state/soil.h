@@ -42,7 +42,7 @@ std::uint32_t touch_column(Surface& surface, Soil& soil, std::uint32_t vertex);
 
 /// Volume that is gained under a vertex by the height it rises: a third of its faces' horizontal area, m^2.
 /// [O(valence)]
-float vertex_area(const Surface& surface, std::uint32_t vertex);
+double vertex_area(const Surface& surface, std::uint32_t vertex);
 
 /// Horizontal area of what is nearer to a vertex than to any other, m^2: on a square grid a square, whatever the
 /// diagonals, where vertex_area() alternates between 2/3 and 4/3 of it. Of a face with an obtuse corner that one gets
