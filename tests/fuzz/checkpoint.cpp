@@ -1,7 +1,9 @@
 // Any bytes as a world put aside: a world that runs, or refused with a reason.
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "divot/world.h"
@@ -21,12 +23,27 @@ divot::Scene scene() {
 }
 
 // What tells scene and ground, which hardly anything made up would.
+constexpr std::size_t kFingerprints = 16;
+
 std::string fingerprints() {
   const auto world = divot::World::create(scene());
-  return world->save().substr(0, 16);
+  return world->save().substr(0, kFingerprints);
 }
 
 }  // namespace
+
+// Worlds to start from are made anew, as their bytes follow what the world is made of: while bodies fall, where they
+// touch, in the blast and after it. They go into the first folder named.
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
+  const auto folder = std::find_if(*argv + 1, *argv + *argc, [](const char* a) { return a[0] != '-'; });
+  if (folder == *argv + *argc || !std::filesystem::is_directory(*folder)) return 0;
+  auto world = divot::World::create(scene());
+  for (int step = 0; step <= 20; world->step(), ++step)
+    if (step == 0 || step == 1 || step == 4 || step == 20)
+      std::ofstream(std::filesystem::path(*folder) / ("after_" + std::to_string(step)), std::ios::binary)
+          << world->save().substr(kFingerprints);
+  return 0;
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const std::string kStart = fingerprints();
