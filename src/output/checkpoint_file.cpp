@@ -35,7 +35,7 @@ namespace {
 
 // A file starts with these 16 bytes, then its version, the length of the rest and the rest's checksum.
 constexpr std::string_view kMagic = "divot checkpoint";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kHeaderSize = kMagic.size() + sizeof(kVersion) + 2 * sizeof(std::uint64_t);
 
 std::uint64_t checksum(std::string_view bytes) {
@@ -83,7 +83,7 @@ Result<Checkpoint> read_checkpoint(const std::string& path) {
   fields(version, length, sum);
   if (fields.ok() && version != kVersion)
     return refuse(path, fmt::format("is a checkpoint of version {}", version),
-                  fmt::format("this divot reads version {}", kVersion));
+                  fmt::format("this divot reads version {}: run the scene from its start", kVersion));
   if (!fields.ok() || size - kHeaderSize != length)
     return refuse(path, fmt::format("has {} bytes", size),
                   fields.ok() ? fmt::format("its beginning says {}", length + kHeaderSize) : "it was cut short");

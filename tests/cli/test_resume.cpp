@@ -149,15 +149,17 @@ TEST_F(Resume, SaysWhatIsWrongWithACheckpoint) {
     EXPECT_NE(outcome.err.find("bad.divot: " + words), std::string::npos) << outcome.err;
     EXPECT_FALSE(fs::exists(folder_ / "never"));
   };
-  std::string changed = whole, later = whole;
+  std::string changed = whole, earlier = whole, later = whole;
   changed[whole.size() / 2] = static_cast<char>(changed[whole.size() / 2] ^ 4);
   later[16] = 9;
+  earlier[16] = 1;
   expect_refusal("", "is no checkpoint; expected a checkpoint of divot");
   expect_refusal("solid something\n", "is no checkpoint");
   expect_refusal(whole.substr(0, 20), "has 20 bytes; it was cut short");
   expect_refusal(whole.substr(0, whole.size() - 1), fmt::format("has {} bytes", whole.size() - 1));
   expect_refusal(changed, "is damaged");
-  expect_refusal(later, "is a checkpoint of version 9; this divot reads version 1");
+  expect_refusal(earlier, "is a checkpoint of version 1; this divot reads version 2: run the scene from its start");
+  expect_refusal(later, "is a checkpoint of version 9; this divot reads version 2");
 
   const Outcome missing = divot({"run", "--resume", "none.divot"});
   EXPECT_EQ(missing.status, 2);
