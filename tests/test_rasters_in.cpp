@@ -102,6 +102,41 @@ TEST_F(RastersIn, MosaicOfTwoFiles) {
     EXPECT_NEAR(height_at(*s, column, 3), ramp(static_cast<int>(column), 3), 1e-3);
 }
 
+// Pixels between nodes have ground where triangles do.
+TEST_F(RastersIn, FinerPixelsKeepHoles) {
+  write_tif("h.tif", 12, 9, [](int column, int row) {
+    return column == 4 && row == 3 ? -9999.0 : column + 0.5 * row + (column == 8 ? row : 0);
+  });
+  Scene scene;
+  scene.folder = folder_.string();
+  scene.terrain.shape = DemTerrain{.path = "h.tif"};
+  scene.output.raster_spacing = 3;
+  const World world = test::make_world(scene);
+  const RasterView fine = *world.raster(scene.output.raster_spacing);
+  ASSERT_EQ(fine.columns, 45u);
+  ASSERT_EQ(fine.rows, 33u);
+  std::size_t holes = 0;
+  for (std::uint32_t row = 1; row + 1 < fine.rows; ++row)
+    for (std::uint32_t column = 1; column + 1 < fine.columns; ++column) {
+      const std::size_t pixel = row * fine.columns + column;
+      const double ground = world.ground_height(fine.x0 + column * fine.dx, fine.y0 - row * fine.dy);
+      holes += fine.holes[pixel];
+      if (!fine.holes[pixel] && !std::isnan(ground)) {
+        EXPECT_NEAR(fine.heights[pixel], ground, 1e-4);
+      }
+      EXPECT_EQ(fine.change[pixel], 0);
+    }
+  // A square with the hole in its middle, whose four corners are cut or not as cells are halved.
+  EXPECT_NEAR(static_cast<double>(holes), 25, 12);
+
+  scene.terrain.max_vertices = 45 * 33 - 1;
+  const auto refused = World::create(scene);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error()[0].text(),
+            "output.raster_spacing: rasters would have 45 x 33 pixels, more than the limit of 1484; expected a larger "
+            "spacing or a higher `terrain.max_vertices`");
+}
+
 // SRTM says where it lies by its name alone: 3 seconds of arc, 1201 x 1201.
 TEST_F(RastersIn, PartOfAnSrtmTile) {
   std::string bytes;

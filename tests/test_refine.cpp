@@ -444,6 +444,36 @@ TEST(Refine, FlatGroundIsCoarseAgain) {
   EXPECT_LT(world.soil_volume().displaced, 1e-3);
 }
 
+// Pixels between the nodes of the terrain's grid have the ground's height.
+TEST(Refine, RastersShowWhatLiesBetweenTheNodes) {
+  World world = test::make_world(rolling(0.8, 0.05));
+  test::run_to(world, 1);
+  const RasterView coarse = *world.raster(), fine = *world.raster(0.11);
+  ASSERT_EQ(fine.columns, (coarse.columns - 1) * 8 + 1);
+  ASSERT_EQ(fine.rows, (coarse.rows - 1) * 8 + 1);
+  EXPECT_EQ(fine.dx, 0.1);
+  EXPECT_EQ(fine.x0, coarse.x0);
+  EXPECT_EQ(fine.y0, coarse.y0);
+  float deepest = 0;
+  for (std::uint32_t row = 0; row < fine.rows; ++row)
+    for (std::uint32_t column = 0; column < fine.columns; ++column) {
+      const std::size_t pixel = row * fine.columns + column;
+      ASSERT_FALSE(fine.holes[pixel]);
+      deepest = std::min(deepest, fine.change[pixel]);
+      const double ground = world.ground_height(fine.x0 + column * fine.dx, fine.y0 - row * fine.dy);
+      // Places on an edge may be told from outside.
+      if (!std::isnan(ground)) {
+        EXPECT_NEAR(fine.heights[pixel], ground, 1e-4) << column << ' ' << row;
+      }
+      if (row % 8 == 0 && column % 8 == 0) {
+        const std::size_t node = row / 8 * coarse.columns + column / 8;
+        EXPECT_EQ(fine.heights[pixel], coarse.heights[node]);
+        EXPECT_EQ(fine.change[pixel], coarse.change[node]);
+      }
+    }
+  EXPECT_LT(deepest, -0.05f);  // there is a rut
+}
+
 TEST(Refine, SameBitsForAnyNumberOfThreads) {
   World one = test::make_world(rolling(0.8, 0.1), 1), three = test::make_world(rolling(0.8, 0.1), 3);
   test::run_to(one, 1), test::run_to(three, 1);

@@ -153,6 +153,7 @@ struct Bomb {
 struct OutputSettings {
   double every = 0;                       ///< s between frames of `formats`; 0: only the final state
   std::vector<std::string> formats = {};  ///< names of docs/scene-format.md, "Formats"
+  double raster_spacing = 0;              ///< m, most between pixels of rasters; 0: the terrain's own grid
 };
 
 /// Everything that makes a run: what a scene file holds.

@@ -170,8 +170,9 @@ class World {
   /// Height of the ground at x, y in the terrain's coordinates, m; NaN outside it.
   double ground_height(double x, double y) const;
 
-  /// Heights on the grid the terrain came from, for rasters; nothing for terrain that came from a mesh. [O(vertices)]
-  std::optional<RasterView> raster() const;
+  /// Heights on the grid the terrain came from, for rasters; nothing for terrain that came from a mesh. With `spacing`
+  /// > 0, m, pixels are at most so far apart, the grid's nodes among them: for ground that is refined. [O(pixels)]
+  std::optional<RasterView> raster(double spacing = 0) const;
 
   /// Boxes, least and greatest corner relative to the surface's origin, of one level of the bounding volume hierarchy
   /// over the surface, the root's being 0: none below the deepest. For looking at. [O(triangles)]

@@ -37,7 +37,7 @@ Frame take_frame(const World& world, const Frame* last, bool with_raster) {
     frame.velocity.push_back({particles.vx[i], particles.vy[i], particles.vz[i]});
     frame.pressure.push_back(world.pressure(particles.vertices[i]));
   }
-  if (with_raster) frame.raster = world.raster();
+  if (with_raster) frame.raster = world.raster(world.scene().output.raster_spacing);
   return frame;
 }
 

@@ -1,5 +1,6 @@
 #include "output/resample.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -17,6 +18,9 @@ struct Place {
   std::array<std::uint32_t, 3> vertex;
   std::array<double, 3> weight;  // sum 1
 
+  std::uint32_t nearest() const {
+    return vertex[static_cast<std::size_t>(std::ranges::max_element(weight) - weight.begin())];
+  }
   template <class F>
   double mean(F value) const {
     double sum = 0;
@@ -55,6 +59,34 @@ std::optional<Place> place_at(const state::Surface& surface, std::uint32_t from,
   return std::nullopt;
 }
 
+// How many pixels there are from node to node, where they are at most `spacing` apart.
+double parts(double node_spacing, double spacing) {
+  // What the grid's is a multiple of is met in spite of rounding.
+  return spacing > 0 ? std::clamp(std::ceil(node_spacing / spacing - 1e-6), 1.0, 1e9) : 1;
+}
+
+// What of the grid was at a place at the start, `x` and `y` in cells from the south-western node; nothing in a hole.
+std::optional<Place> start_place(const state::Surface& surface, double x, double y) {
+  const state::GridLayout& layout = surface.raster->layout;
+  const auto column = std::min(static_cast<std::uint32_t>(x), layout.columns - 2);
+  const auto row = std::min(static_cast<std::uint32_t>(y), layout.rows - 2);
+  x -= column, y -= row;
+  // Corners counter-clockwise from the south-west, and how far it is to the side from each to the next.
+  const std::array<std::uint32_t, 4> corner{layout.vertex(column, row), layout.vertex(column + 1, row),
+                                            layout.vertex(column + 1, row + 1), layout.vertex(column, row + 1)};
+  const std::array<double, 4> side{y, 1 - x, 1 - y, x};
+  const auto is_hole = [&](std::size_t k) { return surface.mesh.outgoing(corner[k]) == kNone; };
+  // A triangle has all corners but one: the hole, else the one beyond the diagonal.
+  const bool rises = (column + row) % 2 == 0;
+  std::size_t without = rises ? (x > y ? 3 : 1) : (x + y > 1 ? 0 : 2);
+  for (std::size_t k = 0; k < 4; ++k)
+    if (is_hole(k)) without = k;
+  const std::size_t a = (without + 1) % 4, b = (without + 2) % 4, c = (without + 3) % 4;
+  const double beside_b = side[b] + side[a];
+  if (is_hole(a) || is_hole(b) || is_hole(c) || beside_b > 1 + 1e-9) return std::nullopt;
+  return Place{{corner[a], corner[b], corner[c]}, {side[b], 1 - beside_b, side[a]}};
+}
+
 // Height at which a vertex started, m.
 double start_height(const state::Surface& surface, const state::Soil& soil, std::uint32_t vertex) {
   const std::uint32_t column = surface.column[vertex];
@@ -63,40 +95,61 @@ double start_height(const state::Surface& surface, const state::Soil& soil, std:
 
 }  // namespace
 
-RasterView resample(const state::Surface& surface, const state::Soil& soil) {
+std::array<std::uint64_t, 2> pixels_of(const state::Raster& grid, double spacing) {
+  const auto along = [&](std::uint32_t nodes, double d) {
+    return static_cast<std::uint64_t>((nodes - 1) * parts(d, spacing)) + 1;
+  };
+  return {along(grid.layout.columns, grid.dx), along(grid.layout.rows, grid.dy)};
+}
+
+RasterView resample(const state::Surface& surface, const state::Soil& soil, double spacing) {
   DIVOT_ASSERT(surface.raster.has_value());
   const state::Raster& grid = *surface.raster;
-  const auto [columns, rows] = grid.layout;
-  const std::size_t pixels = static_cast<std::size_t>(columns) * rows;
-  RasterView out{.columns = columns,
-                 .rows = rows,
+  const double across = parts(grid.dx, spacing), up = parts(grid.dy, spacing);
+  const auto [columns, rows] = pixels_of(grid, spacing);
+  const std::size_t pixels = columns * rows;
+  RasterView out{.columns = static_cast<std::uint32_t>(columns),
+                 .rows = static_cast<std::uint32_t>(rows),
                  .x0 = grid.x0,
-                 .y0 = grid.y0 + grid.dy * (rows - 1),
-                 .dx = grid.dx,
-                 .dy = grid.dy,
+                 .y0 = grid.y0 + grid.dy * (grid.layout.rows - 1),
+                 .dx = grid.dx / across,
+                 .dy = grid.dy / up,
                  .crs = grid.crs,
                  .heights = std::vector<float>(pixels),
                  .change = std::vector<float>(pixels),
                  .sinkage = std::vector<float>(pixels),
                  .holes = std::vector<std::uint8_t>(pixels)};
   const auto height = [&](std::uint32_t v) { return static_cast<double>(surface.position[v].z); };
-  const auto sinkage = [&](std::uint32_t v) { return start_height(surface, soil, v) - height(v); };
-  for (std::uint32_t row = 0; row < rows; ++row) {
-    for (std::uint32_t column = 0; column < columns; ++column) {
-      const std::uint32_t vertex = grid.layout.vertex(column, row);
-      const std::size_t pixel = static_cast<std::size_t>(rows - 1 - row) * columns + column;
-      const Vec3& p = surface.position[vertex];
-      const double x = grid.x0 + column * grid.dx - surface.origin.x;
-      const double y = grid.y0 + row * grid.dy - surface.origin.y;
+  const auto started = [&](std::uint32_t v) { return static_cast<double>(start_height(surface, soil, v)); };
+  const auto sinkage = [&](std::uint32_t v) { return started(v) - height(v); };
+  for (std::uint64_t row = 0; row < rows; ++row) {
+    for (std::uint64_t column = 0; column < columns; ++column) {
+      const std::size_t pixel = (rows - 1 - row) * columns + column;
+      const double in_column = static_cast<double>(column) / across;  // in nodes
+      const double in_row = static_cast<double>(row) / up;
+      const double x = grid.x0 + in_column * grid.dx - surface.origin.x;
+      const double y = grid.y0 + in_row * grid.dy - surface.origin.y;
+      const bool is_node = in_column == std::floor(in_column) && in_row == std::floor(in_row);
+      std::optional<Place> start, now;
+      if (is_node) {
+        const std::uint32_t v =
+            grid.layout.vertex(static_cast<std::uint32_t>(in_column), static_cast<std::uint32_t>(in_row));
+        if (surface.mesh.outgoing(v) != kNone) start = Place{{v, v, v}, {1, 0, 0}};
+      } else {
+        start = start_place(surface, in_column, in_row);
+      }
+      out.holes[pixel] = !start;
+      if (!start) continue;
       // Most vertices never moved, and those keep their height to the bit.
-      const bool at_node = p.x == static_cast<float>(x) && p.y == static_cast<float>(y);
-      const auto place = at_node ? std::nullopt : place_at(surface, vertex, x, y);
-      const double z = place ? place->mean(height) : height(vertex);
+      const std::uint32_t from = start->nearest();
+      const Vec3& p = surface.position[from];
+      const bool at_rest = is_node && p.x == static_cast<float>(x) && p.y == static_cast<float>(y);
+      if (!at_rest) now = place_at(surface, from, x, y);
+      if (!now) now = start;
+      const double z = now->mean(height);
       out.heights[pixel] = static_cast<float>(z + surface.origin.z);
-      // The vertex stood here at the start.
-      out.change[pixel] = static_cast<float>(z - start_height(surface, soil, vertex));
-      out.sinkage[pixel] = static_cast<float>(place ? place->mean(sinkage) : sinkage(vertex));
-      out.holes[pixel] = surface.mesh.outgoing(vertex) == kNone;
+      out.change[pixel] = static_cast<float>(z - start->mean(started));
+      out.sinkage[pixel] = static_cast<float>(now->mean(sinkage));
     }
   }
   return out;

@@ -235,6 +235,11 @@ void describe_output(Visitor& v, OutputSettings& output) {
             .meaning = "between frames of `formats`; 0: only the final state"},
            output.every);
   v.options({.name = "formats", .meaning = "what a frame is written as"}, output::format_names(), output.formats);
+  v.number({.name = "raster_spacing",
+            .unit = "m",
+            .range = between(0, kLong),
+            .meaning = "most between pixels of rasters, the nodes of the terrain's grid among them; 0: these alone"},
+           output.raster_spacing);
 }
 
 void describe_particles(Visitor& v, Material& m) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "output/resample.h"
 #include "terrain/material_map.h"
 #include "terrain/terrain.h"
 #include "world/place.h"
@@ -38,6 +39,16 @@ std::vector<laws::Medium> media_of(const std::vector<Material>& materials, doubl
     media.back().below = static_cast<std::uint8_t>(below - materials.begin());
   }
   return media;
+}
+
+Result<void> check_rasters(const Scene& scene, const state::Surface& surface) {
+  if (!surface.raster) return {};
+  const auto [columns, rows] = output::pixels_of(*surface.raster, scene.output.raster_spacing);
+  if (scene.output.raster_spacing <= 0 || columns <= scene.terrain.max_vertices / rows) return {};
+  return fail({.key = "output.raster_spacing",
+               .problem = fmt::format("rasters would have {} x {} pixels, more than the limit of {}", columns, rows,
+                                      scene.terrain.max_vertices),
+               .expected = "expected a larger spacing or a higher `terrain.max_vertices`"});
 }
 
 // Bodies of an assembly keep their places to each other: all are lifted by what the first to touch the ground needs.
@@ -86,6 +97,7 @@ Result<World> World::create(const Scene& scene, std::shared_ptr<const Jobs> jobs
   if (Errors errors = check(scene); !errors.empty()) return tl::unexpected(std::move(errors));
   auto surface = terrain::load_terrain(scene);
   if (!surface) return tl::unexpected(std::move(surface.error()));
+  if (auto ok = check_rasters(scene, *surface); !ok) return tl::unexpected(ok.error());
 
   auto impl = std::make_unique<Impl>();
   impl->scene = scene;

@@ -123,9 +123,9 @@ double World::ground_height(double x, double y) const {
   return point.found ? point.position.z + origin.z : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::optional<RasterView> World::raster() const {
+std::optional<RasterView> World::raster(double spacing) const {
   if (!impl_->surface.raster) return std::nullopt;
-  return output::resample(impl_->surface, impl_->soil);
+  return output::resample(impl_->surface, impl_->soil, spacing);
 }
 
 std::vector<std::pair<Vec3, Vec3>> World::bvh_boxes(int level) const {
