@@ -38,7 +38,7 @@ struct Slope {
   }
   void step(double dt) {
     std::sort(soil.restless.begin(), soil.restless.end());
-    slump(ground, media, 9.81, dt, scratch, jobs);
+    slump(ground, {}, media, 9.81, dt, scratch, jobs);
   }
   std::uint32_t nearest(float x, float y) const {
     const auto away = [&](const Vec3& p) { return std::hypot(p.x - x, p.y - y); };
@@ -183,7 +183,7 @@ TEST(Slump, GivesTheSameBitsOnAnyNumberOfThreads) {
 TEST(Slump, CostsNothingAtRestAndNothingWithoutGravity) {
   Slope s({.columns = 21, .rows = 21, .spacing = 0.1}, "dry_sand");
   s.pour(s.nearest(0, 0), 0.05);
-  slump(s.ground, s.media, 0, 1, s.scratch, s.jobs);
+  slump(s.ground, {}, s.media, 0, 1, s.scratch, s.jobs);
   EXPECT_TRUE(s.soil.restless.empty());
   EXPECT_GT(s.steepest_deg(), 60);
   s.soil.restless = {s.nearest(0, 0)};

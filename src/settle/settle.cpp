@@ -75,7 +75,7 @@ void update(state::Particles& p, state::Soil& soil, state::Surface& surface, std
   add_restless(sliding_slopes(media, step.gravity), ground, scratch.follow, jobs, soil.restless);
   if (scratch.follow.sleepy) fall_asleep(stillness, p, soil);
   scratch.set.sort_unique(soil.restless);
-  slump(ground, media, step.gravity, step.dt, scratch.slump, jobs);
+  slump(ground, bodies, media, step.gravity, step.dt, scratch.slump, jobs);
   merge_tail(moved.vertices, followed, scratch);
   for (state::Blast& blast : blasts) blast.active = blast.active && still_acts(blast, p, soil, step.time);
 }

@@ -15,6 +15,7 @@ constexpr double kFast = 0.1;
 constexpr double kToSpare = 1.1;
 // Soil that lies thinner than this share of a spacing does not slide by itself.
 constexpr double kThinnest = 1e-3;
+constexpr double kNoCeiling = std::numeric_limits<double>::infinity();
 constexpr std::size_t kGrain = 256;
 
 // A body has it, a blast makes it flow, or it moves as fast as what slides: `fast`, m^2/s^2.
@@ -70,8 +71,21 @@ SlopePatch::Face SlopePatch::make_face(const Ground& ground, double fast, std::u
   return face;
 }
 
-void SlopePatch::build(const Ground& ground, const SlopeLaws& slope_laws, std::span<const std::uint32_t> faces,
-                       const Jobs& jobs) {
+// Soil that slides does not lift a body off its bed, nor creep in below it.
+void SlopePatch::lower_ceilings(const Ground& ground, const state::Body& body) {
+  if (body.near.empty()) return;
+  posed_.place(*body.solid, body.position, body.orientation);
+  for (const std::uint32_t vertex : body.near) {
+    const std::uint32_t k = set_.index_of(vertex);
+    if (k == kNone) continue;
+    const Vec3 place = ground.surface.position[vertex];
+    const geometry::Underside over = posed_.underside(place.x, place.y);
+    if (over.below) corners_[k].ceiling = std::min(corners_[k].ceiling, over.height);
+  }
+}
+
+void SlopePatch::build(const Ground& ground, const SlopeLaws& slope_laws, std::span<const state::Body> bodies,
+                       std::span<const std::uint32_t> faces, const Jobs& jobs) {
   const state::Surface& surface = ground.surface;
   spacing_ = surface.spacing;
   for (const std::uint32_t face : faces)
@@ -90,6 +104,7 @@ void SlopePatch::build(const Ground& ground, const SlopeLaws& slope_laws, std::s
     }
   };
   jobs.for_ranges(vertices_.size(), kGrain, std::ref(make_corners));  // by reference: a copy would be an allocation
+  for (const state::Body& body : bodies) lower_ceilings(ground, body);
   const double fast = kFast * kFast * slope_laws.gravity * spacing_;
   faces_.resize(faces.size()), slides_.resize(faces.size());
   const auto make_faces = [&](std::size_t begin, std::size_t end) {
@@ -139,7 +154,14 @@ SlopePatch::Slide SlopePatch::look_at(const SlopeLaws& slope_laws, const Face& f
   const double root = laws::root_of_excess(slope, rest), share = 0.5 * face.area * root;
   Slide slide{.wanted = laws::slide_mobility(std::max(height, top.now - low), slope_laws.gravity),
               .most = face.stable * root};
-  for (std::uint32_t k = 0; k < 3; ++k) slide.share[k] = -share * (g.x * face.pull[k].x + g.y * face.pull[k].y);
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    slide.share[k] = -share * (g.x * face.pull[k].x + g.y * face.pull[k].y);
+    const Corner& c = corners_[face.corner[k]];
+    if (slide.share[k] <= 0 || c.ceiling == kNoCeiling) continue;
+    const double room = c.ceiling - c.now;
+    if (room <= kThinnest * spacing_) return {};
+    slide.most = std::min(slide.most, room * face.area / 6 / slide.share[k]);
+  }
   // What lies loose on ground that stands goes, but takes none of that ground along: the face's part of the column.
   if (const double leaves = -slide.share[highest]; only_loose && leaves > 0)
     slide.most = std::min(slide.most, top.loose * face.area / 6 / leaves);

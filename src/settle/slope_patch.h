@@ -2,13 +2,16 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "core/id_set.h"
 #include "divot/jobs.h"
+#include "geometry/posed_solid.h"
 #include "laws/medium.h"
 #include "settle/ground.h"
+#include "state/bodies.h"
 
 namespace divot::settle {
 
@@ -23,8 +26,10 @@ struct SlopeLaws {
 /// does not is found once. Sweeps then read a few packed arrays instead of the half-edges, columns and particles.
 class SlopePatch {
  public:
-  /// Takes the `faces`, ascending. Those that a body has a corner of, or that move, stay as they are.
-  void build(const Ground& ground, const SlopeLaws& slope_laws, std::span<const std::uint32_t> faces, const Jobs& jobs);
+  /// Takes the `faces`, ascending. Those that a body has a corner of, or that move, stay as they are; others fill up to
+  /// the undersides of `bodies` at most.
+  void build(const Ground& ground, const SlopeLaws& slope_laws, std::span<const state::Body> bodies,
+             std::span<const std::uint32_t> faces, const Jobs& jobs);
 
   /// Finds which faces are too steep to rest as they now are, and how easily the soil there flows. Returns the most by
   /// which any would overshoot in `dt` seconds: 1 is stable, 0 is at rest.
@@ -41,11 +46,12 @@ class SlopePatch {
   }
 
  private:
-  // A vertex: height of the surface there, and before the first touch.
+  // A vertex: height of the surface there, before the first touch, and of the underside of a body over it.
   struct Corner {
     double now = 0, then = 0, loose = 0;  // m
-    double came = 0, area = 0;            // m^3, m^2
-    float excess = 0;                     // m
+    double ceiling = std::numeric_limits<double>::infinity();
+    double came = 0, area = 0;  // m^3, m^2
+    float excess = 0;           // m
     std::uint8_t material = 0;
     bool moved = false;
   };
@@ -64,7 +70,7 @@ class SlopePatch {
   struct Slide {
     std::array<double, 3> share{};  // soil that it brings to each corner, m^3 per unit of mobility and time
     double wanted = 0;              // mobility of the ground, m^2/s; 0: it rests
-    double most = 0;                // mobility times time that it takes without overshooting, or all loose soil, m^2
+    double most = 0;                // that times time: no more is taken without overshooting, is loose or has room, m^2
   };
 
   template <class Height>
@@ -72,7 +78,10 @@ class SlopePatch {
   Face make_face(const Ground& ground, double fast, std::uint32_t face) const;
   Slide look_at(const SlopeLaws& slope_laws, const Face& face) const;
 
+  void lower_ceilings(const Ground& ground, const state::Body& body);
+
   float spacing_ = 0;
+  geometry::PosedSolid posed_;
   core::IdSet set_;
   std::vector<std::uint32_t> vertices_;  // [corner] ascending
   std::vector<Corner> corners_;

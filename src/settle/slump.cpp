@@ -161,8 +161,8 @@ Slopes sliding_slopes(std::span<const laws::Medium> media, double gravity) {
   return {squared(least.face), squared(least.edge), least.edge < kNever};
 }
 
-void slump(Ground& ground, std::span<const laws::Medium> media, double gravity, double dt, SlumpScratch& scratch,
-           const Jobs& jobs) {
+void slump(Ground& ground, std::span<const state::Body> bodies, std::span<const laws::Medium> media, double gravity,
+           double dt, SlumpScratch& scratch, const Jobs& jobs) {
   if (!(gravity > 0)) return ground.soil.restless.clear();
   scratch.stands.clear();
   for (const laws::Medium& medium : media) scratch.stands.push_back(laws::critical_height(medium, gravity));
@@ -174,7 +174,7 @@ void slump(Ground& ground, std::span<const laws::Medium> media, double gravity, 
   find_steep(ground, scratch);
 
   const SlopeLaws slope_laws{media, scratch.stands, gravity};
-  scratch.patch.build(ground, slope_laws, scratch.faces, jobs);
+  scratch.patch.build(ground, slope_laws, bodies, scratch.faces, jobs);
   float distance = 0;
   int sweeps = 1;
   for (int sweep = 0; sweep < sweeps; ++sweep) {

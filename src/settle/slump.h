@@ -29,9 +29,10 @@ Slopes sliding_slopes(std::span<const laws::Medium> media, double gravity);
 /// Ground that was disturbed and is steeper than it can rest slides, for `dt` seconds: loose soil down to its angle of
 /// repose, intact soil no further than it stood before, cohesive soil until the steep part is no higher than it can
 /// stand. Looks at the faces round `soil.restless` and leaves there what still moves. What a body carries, and what is
-/// in motion, stays out of it. Stable for any dt and any triangles; where `dt` is too long for the triangles it is cut,
-/// and beyond eight cuts the slide is slower. [O(faces that slide)]
-void slump(Ground& ground, std::span<const laws::Medium> media, double gravity, double dt, SlumpScratch& scratch,
-           const Jobs& jobs);
+/// in motion, stays out of it, and what slides goes no higher than the undersides of `bodies`. Stable for any dt and
+/// any triangles; where `dt` is too long for the triangles it is cut, and beyond eight cuts the slide is slower.
+/// [O(faces that slide)]
+void slump(Ground& ground, std::span<const state::Body> bodies, std::span<const laws::Medium> media, double gravity,
+           double dt, SlumpScratch& scratch, const Jobs& jobs);
 
 }  // namespace divot::settle
