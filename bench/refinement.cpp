@@ -18,7 +18,7 @@ struct Subject {
   const char* name;
   double wide, deep;          // m, of the ground
   double coarse;              // m, between the vertices that are refined
-  std::vector<double> edges;  // m, of uniform grids
+  std::vector<double> edges;  // m, of uniform grids, descending
   std::function<void(Scene&)> fill;
   std::function<std::vector<double>(const World&)> results;
 };
@@ -143,6 +143,29 @@ Result<Run> run(const Subject& subject, const std::string& kind, const Scene& sc
   return out;
 }
 
+constexpr int kRepeats = 3;
+
+// The finest uniform grid and the ground refined by default, in turns; each with its median time.
+struct Peers {
+  Run finest, refined;
+};
+
+Result<Peers> run_peers(const Subject& subject) {
+  const double least = subject.edges.back();
+  std::vector<double> finest_s, refined_s;
+  Peers peers;
+  for (int k = 0; k < kRepeats; ++k) {
+    auto finest = run(subject, fmt::format("uniform/{}", least), scene_of(subject, least));
+    if (!finest) return tl::unexpected(finest.error());
+    auto refined_ground = run(subject, "adaptive", refined(subject, least));
+    if (!refined_ground) return tl::unexpected(refined_ground.error());
+    finest_s.push_back(finest->cpu_s), refined_s.push_back(refined_ground->cpu_s);
+    peers = {std::move(*finest), std::move(*refined_ground)};
+  }
+  peers.finest.cpu_s = median(finest_s), peers.refined.cpu_s = median(refined_s);
+  return peers;
+}
+
 // The largest share by which a result is off.
 double error_of(const std::vector<double>& results, const std::vector<double>& wanted) {
   double most = 0;
@@ -159,44 +182,50 @@ Result<Report> refinement(const Request& request) {
   cli::CurveChart cost = curves("refinement_cost", "CPU time of a run, loading included, s", "triangles");
   cli::CurveChart error = curves("refinement_error", "Largest error against the finest uniform grid", "triangles");
   cost.y_label = "s", error.y_label = "error";
-  for (const Subject& subject : subjects(request)) {
+  for (Subject subject : subjects(request)) {
+    std::erase_if(subject.edges, [&](double edge) {
+      return subject.wide * subject.deep / (edge * edge) > static_cast<double>(request.most);
+    });
+    if (subject.edges.empty()) continue;
     report.text += fmt::format("{:<8} {:<14} {:>7} {:>10} {:>10} {:>9} {:>8}\n", "", "", "edge m", "vertices",
                                "triangles", "CPU s", "error");
-    std::optional<Run> finest;
-    const auto measure = [&](const std::string& kind, const std::string& curve, const Scene& scene) -> Result<Run> {
-      auto one = run(subject, kind, scene);
-      if (!one) return one;
-      if (!finest) finest = *one;
-      const double off = error_of(one->results, finest->results);
-      const auto triangles = static_cast<double>(one->measurement.count);
+    const auto peers = run_peers(subject);
+    if (!peers) return tl::unexpected(peers.error());
+    const Run &finest = peers->finest, &chosen = peers->refined;
+    const auto put = [&](const Run& one, const char* kind, const char* curve) {
+      const double off = error_of(one.results, finest.results);
+      const auto triangles = static_cast<double>(one.measurement.count);
       report.text += fmt::format("{:<8} {:<14} {:>7.3f} {:>10} {:>10} {:>9.2f} {:>7.2f}%\n", subject.name, kind,
-                                 one->edge, one->vertices, one->measurement.count, one->cpu_s, 100 * off);
-      add_point(cost, fmt::format("{}, {}", subject.name, curve), triangles, one->cpu_s);
+                                 one.edge, one.vertices, one.measurement.count, one.cpu_s, 100 * off);
+      add_point(cost, fmt::format("{}, {}", subject.name, curve), triangles, one.cpu_s);
       if (off > 0) add_point(error, fmt::format("{}, {}", subject.name, curve), triangles, off);
-      report.results.push_back(one->measurement);
-      return one;
+      report.results.push_back(one.measurement);
     };
-    for (auto edge = subject.edges.rbegin(); edge != subject.edges.rend(); ++edge) {
-      if (subject.wide * subject.deep / (*edge * *edge) > static_cast<double>(request.most)) continue;
-      if (auto one = measure(fmt::format("uniform/{}", *edge), "uniform", scene_of(subject, *edge)); !one)
-        return tl::unexpected(one.error());
-    }
+    const auto measure = [&](const std::string& kind, const char* curve, const Scene& scene) -> Result<void> {
+      const auto one = run(subject, kind, scene);
+      if (!one) return tl::unexpected(one.error());
+      put(*one, kind.c_str(), curve);
+      return {};
+    };
     const double least = subject.edges.back();
-    if (auto one = measure("adaptive/half", "adaptive", refined(subject, least, true)); !one)
-      return tl::unexpected(one.error());
-    auto one = measure("adaptive", "adaptive", refined(subject, least));
-    if (!one) return tl::unexpected(one.error());
-    const std::string verdict = fmt::format(
-        "{:<8} by default: error {:.1f} %, 1/{:.0f} of the vertices, 1/{:.1f} of the time\n", subject.name,
-        100 * error_of(one->results, finest->results),
-        static_cast<double>(finest->vertices) / static_cast<double>(one->vertices), finest->cpu_s / one->cpu_s);
+    put(finest, fmt::format("uniform/{}", least).c_str(), "uniform");
+    for (auto edge = subject.edges.rbegin() + 1; edge != subject.edges.rend(); ++edge)
+      if (const auto done = measure(fmt::format("uniform/{}", *edge), "uniform", scene_of(subject, *edge)); !done)
+        return tl::unexpected(done.error());
+    if (const auto done = measure("adaptive/half", "adaptive", refined(subject, least, true)); !done)
+      return tl::unexpected(done.error());
+    put(chosen, "adaptive", "adaptive");
     // Coarser than what is wanted, as a limit makes it.
     for (auto edge = subject.edges.rbegin(); edge != subject.edges.rend(); ++edge) {
-      if (*edge <= 1.01 * one->edge) continue;
-      if (auto more = measure(fmt::format("adaptive/{}", *edge), "adaptive", refined(subject, *edge)); !more)
-        return tl::unexpected(more.error());
+      if (*edge <= 1.01 * chosen.edge) continue;
+      if (const auto done = measure(fmt::format("adaptive/{}", *edge), "adaptive", refined(subject, *edge)); !done)
+        return tl::unexpected(done.error());
     }
-    report.text += verdict;
+    report.text += fmt::format(
+        "{:<8} by default: error {:.1f} %, 1/{:.0f} of the vertices, 1/{:.1f} of the time (medians of {} runs each)\n",
+        subject.name, 100 * error_of(chosen.results, finest.results),
+        static_cast<double>(finest.vertices) / static_cast<double>(chosen.vertices), finest.cpu_s / chosen.cpu_s,
+        kRepeats);
   }
   report.line_charts = {cost, error};
   return report;

@@ -55,12 +55,13 @@ bool is_behind_rigid(const state::Body& body, const Situation& s, std::uint32_t 
 
 }  // namespace
 
-double step_reach(const state::Body& body, const Situation& s) {
+double step_travel(const state::Body& body, const Situation& s) {
   const double speed =
       length(body.velocity) + geometry::sweep_speed(*body.solid, body.orientation, body.angular_velocity);
-  const double travel = speed * s.dt + length(s.gravity) * s.dt * s.dt;
-  return travel + 0.5 * body.spacing;
+  return speed * s.dt + length(s.gravity) * s.dt * s.dt;
 }
+
+double step_reach(const state::Body& body, const Situation& s) { return step_travel(body, s) + 0.5 * body.spacing; }
 
 void find_near(state::Body& body, const Situation& s, Scratch::PerBody& scratch) {
   const bool adaptive = s.policy.kind == UpdatePolicy::Kind::adaptive;
@@ -68,7 +69,7 @@ void find_near(state::Body& body, const Situation& s, Scratch::PerBody& scratch)
   if (adaptive && body.near_left > needed) return;
 
   // With the adaptive policy what is found now serves for a few steps more.
-  const double reach = needed + (adaptive ? std::max<double>(0.5 * body.spacing, 3 * needed) : s.ground_moved);
+  const double reach = needed + (adaptive ? std::max(0.5 * body.spacing, 4 * step_travel(body, s)) : s.ground_moved);
   bool walked = false;
   if (adaptive && body.last_vertex != kNone) {
     const std::uint32_t below = walk(body, s.surface, body.last_vertex);
@@ -86,13 +87,17 @@ void find_near(state::Body& body, const Situation& s, Scratch::PerBody& scratch)
     math::Aabb column;
     column.include(low);
     column.include(Vec3{high.x, high.y, math::Aabb::kInf});
-    state::vertices_near(s.surface, s.bvh, column, scratch.region, scratch.found);
+    scratch.region.faces.clear(), scratch.found.clear();
+    state::faces_near(s.surface, s.bvh, column, scratch.region.faces);
+    for (const std::uint32_t face : scratch.region.faces)
+      for (std::uint32_t h = 3 * face; h < 3 * face + 3; ++h) scratch.found.push_back(s.surface.mesh.origin(h));
   }
   body.near.clear();
   for (const std::uint32_t v : scratch.found)
     if (scratch.start.within_reach(s.surface.position[v], reach) && !is_behind_rigid(body, s, v, scratch.region))
       body.near.push_back(v);
   std::sort(body.near.begin(), body.near.end());
+  body.near.erase(std::unique(body.near.begin(), body.near.end()), body.near.end());
   body.near_left = reach;
 }
 

@@ -4,8 +4,10 @@
 
 namespace divot::contact {
 
-/// How far a step reaches, m: what body and soil may travel in it, and the neighbour that the body's lowest point
-/// belongs to.
+/// What body and soil may travel in a step, m.
+double step_travel(const state::Body& body, const Situation& s);
+
+/// How far a step reaches, m: step_travel(), and the neighbour that the body's lowest point belongs to.
 double step_reach(const state::Body& body, const Situation& s);
 
 /// Brings body.near up to date: every vertex that the body can touch before body.near_left is used up. scratch.start

@@ -50,7 +50,7 @@ void Bisection::halve(std::uint32_t face, const std::array<std::uint32_t, 3>& co
   leaf_[face] = first;
   DIVOT_ASSERT(other == leaf_.size());
   leaf_.push_back(second);
-  changed_.insert(changed_.end(), {face, other});
+  changed_.insert(face), changed_.insert(other);
 }
 
 void Bisection::join(std::uint32_t face, std::uint32_t other) {
@@ -61,7 +61,7 @@ void Bisection::join(std::uint32_t face, std::uint32_t other) {
   if (whole) free_node_.push_back(node);
   nodes_[node].child = {kNone, face};
   leaf_[face] = whole ? kNone : node;
-  changed_.insert(changed_.end(), {face, other});
+  changed_.insert(face), changed_.insert(other);
 }
 
 std::uint32_t Bisection::split(HalfEdgeMesh& mesh, std::uint32_t h) {
@@ -105,7 +105,7 @@ void Bisection::merge(HalfEdgeMesh& mesh, std::uint32_t vertex) {
     leaf_[place] = leaf_[last];
     if (place != last && leaf_[place] != kNone) nodes_[leaf_[place]].child[1] = place;
     leaf_.pop_back();
-    changed_.insert(changed_.end(), {place, last});
+    changed_.insert(place), changed_.insert(last);
   }
   free_vertex_.push_back(vertex);
   --count_;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/id_set.h"
 #include "divot/ids.h"
 #include "geometry/half_edge_mesh.h"
 
@@ -77,8 +78,8 @@ class Bisection {
   /// Does nothing lead out of an array, and every tree to its end, for this mesh? [O(faces)]
   bool fits(const HalfEdgeMesh& mesh) const;
 
-  /// Faces that have other corners than before, or none, since the last call: in any order, with repeats.
-  std::vector<std::uint32_t>& changed() { return changed_; }
+  /// Faces that have other corners than when this was last emptied, or none.
+  core::IdSet& changed() { return changed_; }
 
  private:
   std::uint32_t root_of(std::uint32_t node) const {
@@ -103,7 +104,7 @@ class Bisection {
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> free_node_;
   std::vector<std::uint32_t> leaf_;  // [face] its node; kNone for a face of the base that is whole
-  std::vector<std::uint32_t> changed_;
+  core::IdSet changed_;
 };
 
 /// The longest side of a face: its half-edge, where `squared(h)` is the square of an edge's length, the same for both

@@ -15,9 +15,9 @@ namespace {
 constexpr double kBeside = 2.5, kBermWidth = 0.5;
 // The ground in a body's way is made fine for so many edges, or steps, in advance, and the body may leave that way by
 // so many edges before it is looked at again.
-constexpr double kAheadEdges = 4, kAheadSteps = 4, kSlack = 2;
+constexpr double kAheadEdges = 8, kAheadSteps = 4, kSlack = 2;
 // Out of a crater the wanted edge grows from this many radii on, up to the end of what it throws or heaves.
-constexpr double kRim = 1.4, kGrowth = 2, kCraterEnd = 4;
+constexpr double kRim = 1.4, kGrowth = 4, kCraterEnd = 4;
 // In a step one in so many of the added vertices is looked at, whether it may go.
 constexpr std::uint32_t kShare = 256, kLeast = 64;
 // When more than this share of the budget is used, what shows least goes first: the tolerance grows up to so many times
@@ -185,6 +185,19 @@ bool is_in_blast(const Ground& ground, std::uint32_t vertex) {
   });
 }
 
+// Did a vertex come where the body may touch it before it looks again what is near?
+bool is_within_near(const Ground& ground, const state::Body& body, geometry::PosedSolid& posed) {
+  const double reach = body.radius + body.near_left;
+  bool placed = false;
+  return std::ranges::any_of(ground.touched, [&](std::uint32_t vertex) {
+    const Vec3 p = ground.surface.position[vertex];
+    if (std::abs(p.x - body.position.x) >= reach || std::abs(p.y - body.position.y) >= reach) return false;
+    if (!placed) posed.place(*body.solid, body.position, body.orientation, true);
+    placed = true;
+    return posed.within_reach(p, body.near_left);
+  });
+}
+
 void forget(std::span<state::Body> bodies, std::uint32_t vertex) {
   for (state::Body& body : bodies) {
     if (body.last_vertex == vertex) body.last_vertex = kNone;
@@ -217,12 +230,11 @@ void join_flat(Ground& ground, std::span<state::Body> bodies, const Limits& limi
 Outcome update(Ground& ground, const geometry::Bvh& bvh, std::span<state::Body> bodies, std::span<const Zone> zones,
                const Limits& limits, const Step& step, bool may_join, Progress& progress, Scratch& scratch) {
   const std::size_t rows = ground.particles.size();
-  const std::uint64_t halved = progress.halved;
   bool whole = true;
   for (state::Body& body : bodies) whole &= refine_for_body(ground, bvh, body, limits, step, progress, scratch);
   for (const Zone& zone : zones) whole &= refine_zone(ground, bvh, zone, limits, progress, scratch);
-  if (progress.halved > halved)
-    for (state::Body& body : bodies) body.near_left = -1;
+  for (state::Body& body : bodies)
+    if (is_within_near(ground, body, scratch.posed)) body.near_left = -1;
   sort_rows(ground.particles, ground.soil);
   if (!whole) ++progress.short_steps;
   progress.most = std::max(progress.most, ground.surface.bisection.added_count());

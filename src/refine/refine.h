@@ -56,6 +56,7 @@ struct Progress {
 struct Scratch {
   geometry::PosedSolid posed;
   std::vector<std::uint32_t> faces;
+  std::vector<std::uint32_t> touched;  ///< vertices that came or went in the step
 };
 
 /// What a step has changed.

@@ -70,13 +70,6 @@ double halved_edge(const refine::Limits& limits, double wanted) {
   return edge;
 }
 
-// Keeps a list of ids below `count` from growing beyond them.
-void drop_repeats(std::vector<std::uint32_t>& ids, std::size_t count) {
-  if (ids.size() < 2 * count) return;
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
-
 }  // namespace
 
 void World::Impl::plan_refinement() {
@@ -142,18 +135,16 @@ bool World::Impl::refine_ground(StepReport& report) {
       if (!is_due(planned)) continue;
       if (const refine::Zone zone = zone_of(*this, planned.bomb); zone.radius > 0) zones.push_back(zone);
     }
-    const std::size_t known = retriangulated.size();
-    refine::Ground ground{surface, soil, particles, blasts, media, material_at, retriangulated};
+    std::vector<std::uint32_t>& touched = refine_scratch.touched;
+    touched.clear();
+    refine::Ground ground{surface, soil, particles, blasts, media, material_at, touched};
     // What is about to be pushed is named by its vertices.
     const bool may_join = kicks.empty();
     const refine::Outcome outcome =
         refine::update(ground, tree.bvh, bodies, zones, refine_limits, {scene.dt, length(scene.gravity)}, may_join,
                        refine_progress, refine_scratch);
-    for (std::size_t k = known; k < retriangulated.size(); ++k) mark_dirty(retriangulated[k]);
-    if (retriangulated.size() > known) list_triangles();
-    // Nobody may ever ask for them.
-    drop_repeats(retriangulated, surface.position.size());
-    drop_repeats(surface.bisection.changed(), surface.mesh.face_count());
+    for (const std::uint32_t vertex : touched) mark_dirty(vertex), retriangulated.insert(vertex);
+    if (!touched.empty()) list_triangles();
     report.refinement_limited = outcome.out_of_budget;
     return outcome.rows;
   });

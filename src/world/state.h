@@ -73,7 +73,7 @@ struct World::Impl {
   refine::Progress refine_progress;
   std::function<std::uint8_t(double x, double y)> material_at;  ///< between vertices; follows from the scene
   refine::Scratch refine_scratch;
-  std::vector<std::uint32_t> retriangulated;  ///< vertices that came or went since take_topology(), with repeats
+  core::IdSet retriangulated;            ///< vertices that came or went since take_topology()
   std::vector<std::uint32_t> triangles;  ///< of rigid faces, then of the ground, for views; empty without the former
   std::vector<bool> shown;               ///< [added vertex] was there at the last take_topology()
 

@@ -68,12 +68,9 @@ Topology World::take_topology() {
   Topology topology;
   state::Surface& surface = impl_->surface;
   if (!surface.bisection.started()) return topology;
-  const auto sort_unique = [](std::vector<std::uint32_t>& ids) {
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  };
-  std::vector<std::uint32_t>& faces = surface.bisection.changed();
-  sort_unique(faces);
+  std::vector<std::uint32_t> faces, vertices;
+  surface.bisection.changed().drain(faces);
+  impl_->retriangulated.drain(vertices);
   const auto rigid = static_cast<std::uint32_t>(surface.rigid.triangles.size() / 3);  // views have them first
   for (std::uint32_t face : faces) {
     face += rigid;
@@ -82,16 +79,13 @@ Topology World::take_topology() {
     else
       topology.triangles.emplace_back(face, face + 1);
   }
-  faces.clear();
-  sort_unique(impl_->retriangulated);
   const std::uint32_t base = surface.bisection.base_vertex_count();
   impl_->shown.resize(surface.position.size() - base, false);
-  for (const std::uint32_t vertex : impl_->retriangulated) {
+  for (const std::uint32_t vertex : vertices) {
     const bool there = surface.mesh.outgoing(vertex) != kNone;
     if (there != impl_->shown[vertex - base]) (there ? topology.added : topology.removed).push_back(vertex);
     impl_->shown[vertex - base] = there;
   }
-  impl_->retriangulated.clear();
   return topology;
 }
 
