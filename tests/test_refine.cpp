@@ -481,6 +481,17 @@ TEST(Refine, SameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(one.state_hash(), three.state_hash());
 }
 
+// What a body could touch is looked up now and then; a vertex that came meanwhile is found all the same.
+TEST(Refine, BodiesMissNoVertexThatCame) {
+  Scene scene = driving(1, 0.05, 2);
+  World adaptive = test::make_world(scene);
+  scene.solver.bvh_update = {UpdatePolicy::Kind::every_step, 1};
+  World each = test::make_world(scene);
+  test::run_to(adaptive, 2), test::run_to(each, 2);
+  EXPECT_GT(adaptive.refinement().halved, 1000u);
+  EXPECT_EQ(adaptive.state_hash(), each.state_hash());
+}
+
 // Whoever applies what take_topology() says to a copy has the triangles.
 TEST(Refine, TopologyFollowsTheTriangles) {
   World world = test::make_world(rolling(0.8, 0.1));
