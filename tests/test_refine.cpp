@@ -481,14 +481,19 @@ TEST(Refine, SameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(one.state_hash(), three.state_hash());
 }
 
-// What a body could touch is looked up now and then; a vertex that came meanwhile is found all the same.
+// What a body could touch is looked up now and then; a vertex that a bomb beside it brings meanwhile is found all the
+// same.
 TEST(Refine, BodiesMissNoVertexThatCame) {
-  Scene scene = driving(1, 0.05, 2);
+  Scene scene = rolling(0.8, 0.025);
+  scene.bodies[0].velocity = scene.bodies[0].angular_velocity = {};
+  scene.bombs = {{.time = 0.5, .position = {-3.4, 0.1, 0}, .yield = 0.001}};
   World adaptive = test::make_world(scene);
   scene.solver.bvh_update = {UpdatePolicy::Kind::every_step, 1};
   World each = test::make_world(scene);
-  test::run_to(adaptive, 2), test::run_to(each, 2);
-  EXPECT_GT(adaptive.refinement().halved, 1000u);
+  test::run_to(adaptive, 0.4);
+  const std::uint64_t halved = adaptive.refinement().halved;
+  test::run_to(adaptive, 1.5), test::run_to(each, 1.5);
+  EXPECT_GT(adaptive.refinement().halved, halved + 100);
   EXPECT_EQ(adaptive.state_hash(), each.state_hash());
 }
 
