@@ -251,12 +251,36 @@ TEST(LawsSoil, WavesCarryNoMoreThanQuickStrength) {
 TEST(LawsSoil, ThrownSoilPushesBackWithTheSquareOfTheSpeed) {
   Medium s;
   s.density = 1600, s.tan_friction = 0.6f;
-  EXPECT_NEAR(throwing_pressure<double>(s, 3).value, 8.0 / 3 * 0.6 * 1600 * 9, 1e-2);
-  EXPECT_NEAR(throwing_pressure<double>(s, 3).damping,
-              (throwing_pressure<double>(s, 3.001).value - throwing_pressure<double>(s, 2.999).value) / 2e-3, 1);
-  EXPECT_EQ(throwing_pressure<double>(s, -3).value, 0);
+  EXPECT_NEAR(thrown_pressure<double>(s, 3).per_speed,
+              (thrown_pressure<double>(s, 3.001).value - thrown_pressure<double>(s, 2.999).value) / 2e-3, 1);
+  EXPECT_EQ(thrown_pressure<double>(s, -3).value, 0);
+  // On a ball in by half, at its speed: that of balls in dry grains, m v^2 / d1.
+  constexpr int kRings = 1000;
+  double mean = 0;
+  for (int k = 0; k < kRings; ++k) {
+    const double squared = (k + 0.5) / kRings;  // of the distance from the axis
+    mean += thrown_pressure<double>(s, 3 * std::sqrt(1 - squared)).value / kRings;
+  }
+  const double ball = 2500, d = 0.2, d1 = 0.25 * d * ball / (s.density * s.tan_friction);
+  const double mass = ball * std::numbers::pi / 6 * d * d * d, area = std::numbers::pi / 4 * d * d;
+  EXPECT_NEAR(mean * area, mass * 9 / d1, 1e-3 * mean * area);
   s.tan_friction = 0;
-  EXPECT_NEAR(throwing_pressure<double>(s, 2).value, 0.5 * 1600 * 4, 1e-3);
+  EXPECT_NEAR(thrown_pressure<double>(s, 2).value, 0.5 * 1600 * 4, 1e-3);
+}
+
+TEST(LawsSoil, QuickLoadingAddsTheLargerOfWavesAndThrownSoil) {
+  Medium s = soil(0, 2e5, 1.1, 4e6);
+  s.ground_damping = 1e4, s.density = 1600, s.tan_friction = 0.6f;
+  const auto at = [&](double plastic, double speed, double across) {
+    return ground_pressure<double>(s, 0.1, plastic, 1, 4e6, speed, across);
+  };
+  const double curve = bekker_pressure<double>(s, 0.1, 1);
+  EXPECT_EQ(at(0, 0.1, 0.1).value, curve + 1e3) << "waves";
+  EXPECT_EQ(at(0, 0.1, 0.1).throwing, 0);
+  EXPECT_EQ(at(0, 10, 10).value, curve + thrown_pressure<double>(s, 10).value);
+  EXPECT_EQ(at(0, 10, 10).damping, 0);
+  EXPECT_EQ(at(0, 10, 10).throwing, thrown_pressure<double>(s, 10).per_speed);
+  EXPECT_EQ(at(0.0999, 0, 10).value, at(0.0999, 0, 0).value) << "only what yields is thrown";
 }
 
 TEST(LawsSoil, ShearStrengthIsMohrCoulombs) {

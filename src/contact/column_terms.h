@@ -118,14 +118,12 @@ DIVOT_INLINE Push<Real> push_of(const ColumnTask& task, const laws::Medium& medi
   // Bekker's pressure, as it was measured, has in it what holds soil together at the patch's edge: bonds do not count.
   // A load that only moves along, slower than waves, radiates none.
   const Real lifting = Real(task.ground.x) * v.x + Real(task.ground.y) * v.y + v.z + turning;
-  const auto pressure =
-      laws::ground_pressure<Real>(medium, in.get(b.fresh) - height_of(task, v, in, b), in.get(b.plastic),
-                                  Real(task.patch), Real(medium.elastic_stiffness), least(-rising, -lifting));
-  // Only what yields is thrown out of the way.
   const Real slope = in.get(b.slope), area = in.get(b.area);
-  const auto throwing = laws::throwing_pressure<Real>(medium, select(pressure.yields, -rising / slope, zero));
-  const Real force = (pressure.value + throwing.value) * area;
-  const Real base = (pressure.slope * dt + throwing.damping / slope) * area, damping = pressure.damping * area;
+  const auto pressure = laws::ground_pressure<Real>(medium, in.get(b.fresh) - height_of(task, v, in, b),
+                                                    in.get(b.plastic), Real(task.patch), Real(medium.elastic_stiffness),
+                                                    least(-rising, -lifting), -rising / slope);
+  const Real force = pressure.value * area;
+  const Real base = (pressure.slope * dt + pressure.throwing / slope) * area, damping = pressure.damping * area;
   const auto pushes = both(touches, force > zero), rises = rising > lifting;
   return {select(pushes, force, zero), select(pushes, base + select(rises, damping, zero), zero),
           select(pushes, select(rises, zero, damping), zero)};

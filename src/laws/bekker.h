@@ -26,22 +26,42 @@ DIVOT_INLINE Real bekker_pressure(const Medium& s, Real z, Real b) {
 /// [Casagrande & Shannon 1948].
 inline constexpr double kQuickStrength = 1.5;
 
+/// Pressure of soil that is thrown out of the way at `speed`, m/s, across the load's face, and its slope: C density
+/// speed^2. On a ball that is in by half, whose face turns away from its way, the mean C is half of it, the 8/3 of the
+/// coefficient of friction of dry grains [Katsuragi & Durian 2013]; and C is at least the 1/2 of any flow that is
+/// brought to rest.
+template <class Real>
+struct Thrown {
+  Real value, per_speed;  ///< Pa, Pa s/m
+};
+template <class Real>
+DIVOT_INLINE Thrown<Real> thrown_pressure(const Medium& s, Real speed) {
+  using math::greatest;
+  const double grains = 16.0 / 3 * s.tan_friction;
+  const Real coefficient = Real((grains > 0.5 ? grains : 0.5) * s.density);
+  const Real away = greatest(speed, Real(0)), drag = coefficient * away;
+  return {drag * away, Real(2) * drag};
+}
+
 /// Pressure of a load that comes down, and its slopes.
 template <class Real>
 struct Pressure {
   Real value = Real(0);                  ///< Pa
   Real slope = Real(0);                  ///< Pa/m, against sinkage
   Real damping = Real(0);                ///< Pa s/m, against speed
+  Real throwing = Real(0);               ///< Pa s/m, against speed across the face
   decltype(Real(0) < Real(0)) yields{};  ///< on Bekker's curve: sinkage becomes permanent
 };
 
 /// Pressure at sinkage z of soil that has sunk by `plastic` for good: elastic from there until Bekker's curve is met
 /// again. Where Bekker's curve starts infinitely steep (n < 1) or is stiffer than the elastic branch, the elastic
 /// branch leads. Soil that is pressed at `speed`, m/s, radiates waves, by its damping times that; they carry no more
-/// than makes kQuickStrength of Bekker's curve, its strength.
+/// than makes kQuickStrength of Bekker's curve, its strength. What yields is thrown out of the way at the speed
+/// `across` the load's face: the larger of both is what quick loading adds, as the strength of quickly loaded soil was
+/// measured with its inertia.
 template <class Real>
 DIVOT_INLINE Pressure<Real> ground_pressure(const Medium& s, Real z, Real plastic, Real b, Real elastic_stiffness,
-                                            Real speed = Real(0)) {
+                                            Real speed = Real(0), Real across = Real(0)) {
   using math::both, math::least, math::select;
   const Real zero = Real(0), elastic = elastic_stiffness * (z - plastic);
   const auto pressed = elastic > zero;
@@ -58,21 +78,12 @@ DIVOT_INLINE Pressure<Real> ground_pressure(const Medium& s, Real z, Real plasti
   const Real value = select(limited, most, at_rest + waves);
   const Real value_slope = select(limited, Real(kQuickStrength) * steepness, slope);
   const Real damping = select(limited, zero, select(pushed, Real(s.ground_damping), zero));
-  return {select(pressed, value, zero), select(pressed, value_slope, zero), select(pressed, damping, zero), yields};
-}
-
-/// Pressure of soil that is thrown out of the way at `speed`, m/s, across the load's face: C density speed^2. C is 8/3
-/// of the coefficient of friction in dry grains [Katsuragi & Durian 2013], and at least the 1/2 of any flow that is
-/// brought to rest.
-template <class Real>
-DIVOT_INLINE Pressure<Real> throwing_pressure(const Medium& s, Real speed) {
-  using math::greatest;
-  const double grains = 8.0 / 3 * s.tan_friction;
-  const Real coefficient = Real((grains > 0.5 ? grains : 0.5) * s.density);
-  const Real away = greatest(speed, Real(0)), drag = coefficient * away;
-  Pressure<Real> pressure;
-  pressure.value = drag * away, pressure.damping = Real(2) * drag;
-  return pressure;
+  const Thrown<Real> thrown = thrown_pressure(s, select(yields, across, zero));
+  const auto throws = value < at_rest + thrown.value;
+  return {select(pressed, select(throws, at_rest + thrown.value, value), zero),
+          select(pressed, select(throws, slope, value_slope), zero),
+          select(both(pressed, throws), zero, select(pressed, damping, zero)),
+          select(both(pressed, throws), thrown.per_speed, zero), yields};
 }
 
 /// Largest shear stress at normal pressure p, Pa. [Mohr-Coulomb]
