@@ -91,9 +91,11 @@ bool halve_faces(Ground& ground, double least, std::uint32_t most, std::vector<s
   const auto squared = [&](std::uint32_t h) { return squared_length(surface, ground.soil, h); };
   while (!faces.empty()) {
     const std::uint32_t face = faces.back();
-    const double edge = std::max(least, wanted(face));
-    // The longest side of a right triangle with equal legs, and a little for rounding.
-    if (squared(longest_side(surface.mesh, face, squared)) <= 2.002 * edge * edge) {
+    const double longest = squared(longest_side(surface.mesh, face, squared));
+    // The longest side of a right triangle with equal legs, and a little for rounding. What is wanted is asked last:
+    // most faces are as fine as may be.
+    const auto is_fine = [&](double edge) { return longest <= 2.002 * edge * edge; };
+    if (is_fine(least) || is_fine(wanted(face))) {
       faces.pop_back();
       continue;
     }
