@@ -1,7 +1,6 @@
 #include "geometry/posed_solid.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -13,48 +12,8 @@ using Kind = Piece::Kind;
 using math::Matrix3;
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
-// Rays that run along a face or wall this nearly do not cross it.
-constexpr double kParallel = 1e-12;
-// Lines around an ellipse: an outline of so many tangents is 0.2 % too wide at its corners.
-constexpr int kTangents = 48;
-
-// Unit vectors all round, in equal steps.
-const std::array<std::array<double, 2>, kTangents>& directions() {
-  static const auto all = [] {
-    std::array<std::array<double, 2>, kTangents> list{};
-    for (int k = 0; k < kTangents; ++k) {
-      const double angle = 2 * std::numbers::pi * k / kTangents;
-      list[static_cast<std::size_t>(k)] = {std::cos(angle), std::sin(angle)};
-    }
-    return list;
-  }();
-  return all;
-}
-
-struct Span {
-  double begin = -kInf, end = kInf;
-  bool empty() const { return begin > end; }
-};
-
-// Where `from + t direction` lies between -half and half.
-Span slab(double from, double direction, double half) {
-  if (std::abs(direction) < kParallel) return std::abs(from) <= half ? Span{} : Span{kInf, -kInf};
-  const double a = (-half - from) / direction, b = (half - from) / direction;
-  return {std::min(a, b), std::max(a, b)};
-}
-
-// Where a t^2 + 2 b t + c <= 0, for a > 0.
-Span inside_round(double a, double b, double c) {
-  if (a < kParallel) return c <= 0 ? Span{} : Span{kInf, -kInf};
-  const double root = b * b - a * c;
-  if (root < 0) return {kInf, -kInf};
-  const double s = std::sqrt(root);
-  return {(-b - s) / a, (-b + s) / a};
-}
-
-double axis_of(const Vec3d& v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
-
-Vec3d unit(int i, double size) { return {i == 0 ? size : 0, i == 1 ? size : 0, i == 2 ? size : 0}; }
+// Points all round a rim, of which the lowest count.
+constexpr int kRimPoints = 48;
 
 }  // namespace
 
@@ -111,247 +70,6 @@ void PosedPiece::find_bounds() {
   low = position_ - reach, high = position_ + reach;
 }
 
-// ---- underside: where a vertical line enters the piece, in its own axes
-
-Underside PosedPiece::underside(double x, double y) const {
-  if (x < low.x || x > high.x || y < low.y || y > high.y) return {};
-  if (piece_->kind == Kind::sphere) return sphere(x, y);
-  if (piece_->kind == Kind::capsule) return capsule(x, y);
-  const Vec3d from = math::transposed_times(axes_, Vec3d{x - position_.x, y - position_.y, 0});
-  switch (piece_->kind) {
-    case Kind::box:
-      return box(from);
-    case Kind::cylinder:
-      return cylinder(from);
-    case Kind::cone:
-      return cone(from);
-    default:
-      return hull(from);
-  }
-}
-
-Underside PosedPiece::hit(double rise, const Vec3d& normal) const {
-  return {true, position_.z + rise, math::operator*(axes_, normal)};
-}
-
-Underside PosedPiece::sphere(double x, double y) const {
-  const double r = piece_->radius, dx = x - position_.x, dy = y - position_.y, h_squared = r * r - dx * dx - dy * dy;
-  if (h_squared <= 0) return {};
-  const double h = std::sqrt(h_squared);
-  return {true, position_.z - h, {dx / r, dy / r, -h / r}};
-}
-
-Underside PosedPiece::box(const Vec3d& from) const {
-  Span inside;
-  int entered = 0;
-  for (int i = 0; i < 3; ++i) {
-    const Span s = slab(axis_of(from, i), axis_of(up_, i), axis_of(piece_->half, i));
-    if (s.begin > inside.begin) inside.begin = s.begin, entered = i;
-    inside.end = std::min(inside.end, s.end);
-  }
-  if (inside.empty()) return {};
-  return hit(inside.begin, unit(entered, axis_of(up_, entered) > 0 ? -1 : 1));
-}
-
-Underside PosedPiece::cylinder(const Vec3d& from) const {
-  const double r = piece_->radius;
-  const Span wall = inside_round(up_.x * up_.x + up_.z * up_.z, from.x * up_.x + from.z * up_.z,
-                                 from.x * from.x + from.z * from.z - r * r);
-  const Span ends = slab(from.y, up_.y, piece_->half_length);
-  if (wall.empty() || ends.empty() || std::max(wall.begin, ends.begin) > std::min(wall.end, ends.end)) return {};
-  if (ends.begin >= wall.begin) return hit(ends.begin, {0, up_.y > 0 ? -1.0 : 1.0, 0});
-  const Vec3d at = from + wall.begin * up_;
-  return hit(wall.begin, {at.x / r, 0, at.z / r});
-}
-
-// The lowest of the two end balls and the tube between them.
-Underside PosedPiece::capsule(double x, double y) const {
-  const double r = piece_->radius;
-  Underside lowest;
-  const auto take = [&](double height, const Vec3d& normal) {
-    if (!lowest.below || height < lowest.height) lowest = {true, height, normal};
-  };
-  for (const double side : {-1.0, 1.0}) {
-    const Vec3d c = position_ + (side * piece_->half_length) * axis_;
-    const double dx = x - c.x, dy = y - c.y, h_squared = r * r - dx * dx - dy * dy;
-    if (h_squared <= 0) continue;
-    const double h = std::sqrt(h_squared);
-    take(c.z - h, {dx / r, dy / r, -h / r});
-  }
-  const Vec3d from = math::transposed_times(axes_, Vec3d{x - position_.x, y - position_.y, 0});
-  const Span wall = inside_round(up_.x * up_.x + up_.z * up_.z, from.x * up_.x + from.z * up_.z,
-                                 from.x * from.x + from.z * from.z - r * r);
-  if (!wall.empty() && wall.begin > -kInf) {
-    const Vec3d at = from + wall.begin * up_;
-    if (std::abs(at.y) <= piece_->half_length)
-      take(position_.z + wall.begin, math::operator*(axes_, Vec3d{at.x / r, 0, at.z / r}));
-  }
-  return lowest;
-}
-
-// The first of the crossings with wall and base that lies on the cone.
-Underside PosedPiece::cone(const Vec3d& from) const {
-  const double height = 2 * piece_->half_length, k = piece_->radius / height, w = piece_->half_length - from.z;
-  const double a = up_.x * up_.x + up_.y * up_.y - k * k * up_.z * up_.z,
-               b = from.x * up_.x + from.y * up_.y + k * k * w * up_.z,
-               c = from.x * from.x + from.y * from.y - k * k * w * w;
-  std::array<double, 3> crossing = {kInf, kInf, kInf};
-  if (std::abs(up_.z) > kParallel) crossing[0] = (-piece_->half_length - from.z) / up_.z;
-  const double root = b * b - a * c;
-  if (std::abs(a) < kParallel) {
-    if (std::abs(b) > kParallel) crossing[1] = -c / (2 * b);
-  } else if (root >= 0) {
-    crossing[1] = (-b - std::sqrt(root)) / a, crossing[2] = (-b + std::sqrt(root)) / a;
-  }
-  const double slack = 1e-9 * (height + piece_->radius);
-  double first = kInf;
-  bool base = false;
-  for (int i = 0; i < 3; ++i) {
-    if (!(crossing[i] < first)) continue;
-    const Vec3d at = from + crossing[i] * up_;
-    const double below_tip = piece_->half_length - at.z, wide = k * below_tip + slack;
-    if (below_tip < -slack || below_tip > height + slack || at.x * at.x + at.y * at.y > wide * wide) continue;
-    first = crossing[i], base = i == 0;
-  }
-  if (first == kInf) return {};
-  if (base) return hit(first, {0, 0, -1});
-  const Vec3d at = from + first * up_;
-  const double across = std::hypot(at.x, at.y), lean = 1 / std::sqrt(1 + k * k);
-  // At the tip the wall has every direction; the axis is their mean.
-  const Vec3d normal = across > slack ? Vec3d{at.x / across * lean, at.y / across * lean, k * lean} : Vec3d{0, 0, 1};
-  return hit(first, normal);
-}
-
-Underside PosedPiece::hull(const Vec3d& from) const {
-  Span inside;
-  const ConvexHull::Plane* entered = nullptr;
-  for (const ConvexHull::Plane& face : piece_->hull->faces) {
-    const double along = dot(face.normal, up_), room = face.offset - dot(face.normal, from);
-    if (std::abs(along) < kParallel) {
-      if (room < 0) return {};
-    } else if (along > 0) {
-      inside.end = std::min(inside.end, room / along);
-    } else if (room / along > inside.begin) {
-      inside.begin = room / along, entered = &face;
-    }
-  }
-  if (inside.empty() || entered == nullptr) return {};
-  return hit(inside.begin, entered->normal);
-}
-
-// ---- outline: what a piece covers, seen from below
-
-void PosedPiece::add_line(double nx, double ny, double reach) {
-  outline_.push_back({nx, ny, nx * position_.x + ny * position_.y + reach});
-}
-
-void PosedPiece::find_outline() {
-  const Piece& p = *piece_;
-  if (p.kind == Kind::box) {
-    // The shadow of a box is a hexagon whose sides are shadows of its edges.
-    for (int i = 0; i < 3; ++i) {
-      const Vec3d edge = math::column(axes_, i);
-      const double size = std::hypot(edge.x, edge.y);
-      if (size < 1e-9) continue;
-      const double nx = edge.y / size, ny = -edge.x / size;
-      double reach = 0;
-      for (int k = 0; k < 3; ++k) {
-        const Vec3d other = math::column(axes_, k);
-        reach += std::abs(nx * other.x + ny * other.y) * axis_of(p.half, k);
-      }
-      add_line(nx, ny, reach), add_line(-nx, -ny, reach);
-    }
-  } else if (p.kind == Kind::cylinder || p.kind == Kind::cone) {
-    // Tangents all round, among them those along and across the axis, which are sides when it lies.
-    const double flat = std::hypot(axis_.x, axis_.y);
-    const double ax = flat > 1e-9 ? axis_.x / flat : 1, ay = flat > 1e-9 ? axis_.y / flat : 0;
-    for (int k = 0; k < kTangents; ++k) {
-      const auto [c, s] = directions()[static_cast<std::size_t>(k)];
-      const double nx = c * ax - s * ay, ny = c * ay + s * ax, along = nx * axis_.x + ny * axis_.y;
-      const double rim = p.radius * std::sqrt(std::max(0.0, 1 - along * along));
-      const double base = p.half_length * (p.kind == Kind::cone ? -along : std::abs(along)) + rim;
-      add_line(nx, ny, p.kind == Kind::cone ? std::max(base, p.half_length * along) : base);
-    }
-    // From the tip of a cone along its base.
-    const double to_rim = p.radius / std::hypot(2 * p.half_length, p.radius);
-    if (p.kind == Kind::cone && flat > to_rim)
-      for (const double side : {-1.0, 1.0}) {
-        const double c = to_rim / flat, s = side * std::sqrt(1 - c * c);
-        add_line(c * ax - s * ay, c * ay + s * ax, p.half_length * flat * c);
-      }
-  } else if (p.kind == Kind::hull) {
-    // Edges between a face seen from below and one that is not.
-    const auto faces_down = [&](std::uint32_t f) { return dot(p.hull->faces[f].normal, up_) < 0; };
-    for (const ConvexHull::Edge& edge : p.hull->edges) {
-      if (faces_down(edge.left) == faces_down(edge.right)) continue;
-      const Vec3d a = math::operator*(axes_, p.hull->corners[edge.a]),
-                  b = math::operator*(axes_, p.hull->corners[edge.b]);
-      const double dx = b.x - a.x, dy = b.y - a.y, size = std::hypot(dx, dy);
-      if (size < 1e-12) continue;
-      double nx = dy / size, ny = -dx / size;
-      const Vec3d left = math::operator*(axes_, p.hull->faces[edge.left].normal),
-                  right = math::operator*(axes_, p.hull->faces[edge.right].normal);
-      if (nx * (left.x + right.x) + ny * (left.y + right.y) < 0) nx = -nx, ny = -ny;
-      add_line(nx, ny, nx * a.x + ny * a.y);
-    }
-  }
-}
-
-double PosedPiece::outside(double x, double y, Vec3d& away) const {
-  if (outline_.empty()) {
-    // A ball, or the nearest ball of a capsule.
-    const double dx = x - position_.x, dy = y - position_.y, flat = axis_.x * axis_.x + axis_.y * axis_.y;
-    const double half = piece_->kind == Kind::capsule ? piece_->half_length : 0;
-    const double along = flat > 1e-12 ? std::clamp((dx * axis_.x + dy * axis_.y) / flat, -half, half) : 0;
-    const double px = dx - along * axis_.x, py = dy - along * axis_.y, distance = std::sqrt(px * px + py * py);
-    away = distance > 0 ? Vec3d{px / distance, py / distance, 0} : Vec3d{1, 0, 0};
-    return distance - piece_->radius;
-  }
-  double most = -kInf;
-  for (const Line& line : outline_) {
-    const double distance = line.x * x + line.y * y - line.offset;
-    if (distance > most) most = distance, away = {line.x, line.y, 0};
-  }
-  return most;
-}
-
-Cover PosedPiece::covered(double x, double y, double width) const {
-  const double half = 0.5 * width;
-  // The square, cut by each line that crosses it.
-  std::array<Vec3d, 4 + 2 * kTangents> corners, kept;
-  std::size_t count = 4;
-  corners[0] = {-half, -half, 0}, corners[1] = {half, -half, 0}, corners[2] = {half, half, 0},
-  corners[3] = {-half, half, 0};
-  const auto cut = [&](double nx, double ny, double room) {
-    if (room >= half * (std::abs(nx) + std::abs(ny)) || count + 2 > corners.size()) return;
-    std::size_t n = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      const Vec3d &a = corners[k], &b = corners[(k + 1) % count];
-      const double da = nx * a.x + ny * a.y - room, db = nx * b.x + ny * b.y - room;
-      if (da <= 0) kept[n++] = a;
-      if ((da <= 0) != (db <= 0)) kept[n++] = a + (da / (da - db)) * (b - a);
-    }
-    std::copy_n(kept.begin(), n, corners.begin());
-    count = n;
-  };
-  if (outline_.empty()) {
-    Vec3d away;
-    const double distance = outside(x, y, away);
-    cut(away.x, away.y, -distance);
-  } else {
-    for (const Line& line : outline_) cut(line.x, line.y, line.offset - line.x * x - line.y * y);
-  }
-  Cover cover;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Vec3d &a = corners[k], &b = corners[(k + 1) % count];
-    const double twice = a.x * b.y - b.x * a.y;
-    cover.area += 0.5 * twice;
-    cover.x += twice * (a.x + b.x) / 6, cover.y += twice * (a.y + b.y) / 6;
-  }
-  if (!(cover.area > 1e-9 * width * width)) return {};
-  return {cover.area, x + cover.x / cover.area, y + cover.y / cover.area};
-}
-
 // ---- points of first touch
 
 std::optional<Ridge> PosedPiece::ridge(const Vec3d& up) const {
@@ -391,8 +109,8 @@ Vec3d PosedPiece::lowest() const {
       if (p.kind == Kind::capsule) add(end - Vec3d{0, 0, p.radius});
       if (p.kind == Kind::cone && side > 0) add(end);
       if (p.kind == Kind::capsule || (p.kind == Kind::cone && side > 0)) continue;
-      for (int k = 0; k < kTangents; ++k) {
-        const double angle = 2 * std::numbers::pi * k / kTangents;
+      for (int k = 0; k < kRimPoints; ++k) {
+        const double angle = 2 * std::numbers::pi * k / kRimPoints;
         add(end + p.radius * (std::cos(angle) * u + std::sin(angle) * v));
       }
     }
