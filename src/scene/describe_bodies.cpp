@@ -6,12 +6,6 @@ namespace {
 
 constexpr const char* kJointTypes[] = {"hinge", "slider", "fixed", "spring", "wheel"};
 
-template <class T, class Variant>
-T& as(Variant& variant) {
-  if (T* held = std::get_if<T>(&variant)) return *held;
-  return variant.template emplace<T>();
-}
-
 constexpr Key length_key(const char* name, const char* meaning) {
   return {.name = name, .unit = "m", .range = above(0, kLong), .meaning = meaning, .required = true};
 }

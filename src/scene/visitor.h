@@ -158,4 +158,11 @@ std::string one_of(Names names);
 /// `expected a number > 0 (kg)`; `type` with its article.
 std::string expectation(const std::string& type, const Key& key);
 
+/// The alternative T of a variant, made anew where it holds another.
+template <class T, class Variant>
+T& as(Variant& variant) {
+  if (T* held = std::get_if<T>(&variant)) return *held;
+  return variant.template emplace<T>();
+}
+
 }  // namespace divot::scene
