@@ -51,7 +51,7 @@ struct Pressed {
       s.soil.compacted[p.column[i]] = state::move_vertex(s.surface, p.vertex[i], p.position(i));
       pressed += s.soil.compacted[p.column[i]];
     }
-    bodies[0].velocity = velocity, bodies[0].patch_width = 0.2;
+    bodies[0].velocity = velocity, bodies[0].way = 0.1 * velocity, bodies[0].patch_width = 0.2;
     flow_aside(bodies, s.media, {.dt = 0.1, .gravity = 9.81}, ground, scratch);
   }
   static Material soil() {
@@ -158,8 +158,8 @@ TEST(FlowAside, ARutHasBermsOnBothSides) {
   EXPECT_LT(world.soil_volume().relative_error(), 0.01);
 }
 
-// Chrono's SCM keeps 28 % of the rut in the berm at 5 cm and 6 % at 2 cm. Here it is 16 and 20 % at 10 and 5
-// cm: more scatter than the 10 % that is wanted.
+// Chrono's SCM keeps 28 % of the rut in the berm at 5 cm and 6 % at 2 cm. Here it is 16, 19 and 19 % at 10, 5 and
+// 2.5 cm.
 TEST(FlowAside, TheBermHoldsTheSameShareOfTheRutOnAnyMesh) {
   const auto share = [](double spacing, double dt) {
     World world = test::make_world(rut_scene(spacing, "dry_sand", dt));
@@ -169,13 +169,30 @@ TEST(FlowAside, TheBermHoldsTheSameShareOfTheRutOnAnyMesh) {
   };
   const double reference = share(0.05, 1.0 / 60);
   EXPECT_GT(reference, 0.1);
-  EXPECT_NEAR(share(0.025, 1.0 / 60), reference, 0.2 * reference);
-  EXPECT_NEAR(share(0.1, 1.0 / 60), reference, 0.25 * reference) << "the patch is four columns wide";
-  EXPECT_NEAR(share(0.05, 1.0 / 120), reference, 0.2 * reference);
+  EXPECT_NEAR(share(0.025, 1.0 / 60), reference, 0.1 * reference);
+  EXPECT_NEAR(share(0.1, 1.0 / 60), reference, 0.2 * reference) << "the patch is four columns wide";
+  EXPECT_NEAR(share(0.05, 1.0 / 120), reference, 0.1 * reference);
+}
+
+TEST(FlowAside, WhatABallThatFallsThrowsUpDependsNeitherOnTheMeshNorOnTheStep) {
+  for (const char* material : {"dry_sand", "lunar_regolith", "wheat_field"}) {
+    const auto share = [&](double spacing, double dt) {
+      Scene scene = rut_scene(spacing, material, dt);
+      scene.bodies[0].mass = 1000, scene.bodies[0].position = {0.013, 0.007, 2};
+      scene.bodies[0].velocity = scene.bodies[0].angular_velocity = {};
+      World world = test::make_world(scene);
+      test::run_to(world, 1.5);
+      return world.soil_volume().deposited / world.soil_volume().displaced;
+    };
+    const double reference = share(0.05, 1.0 / 60);
+    EXPECT_GT(reference, 0.2) << material;
+    EXPECT_NEAR(share(0.025, 1.0 / 60), reference, 0.1 * reference) << material;
+    EXPECT_NEAR(share(0.05, 1.0 / 120), reference, 0.1 * reference) << material;
+  }
 }
 
 TEST(FlowAside, EachPassIsShallowerThanTheOneBefore) {
-  for (const char* material : {"dry_sand", "mud"}) {
+  for (const auto& [material, most] : {std::pair{"dry_sand", 0.25}, {"mud", 0.6}}) {
     const Scene scene = rut_scene(0.05, material);
     World world = test::make_world(scene);
     std::vector<double> depth = {0};
@@ -186,7 +203,7 @@ TEST(FlowAside, EachPassIsShallowerThanTheOneBefore) {
       depth.push_back(depth_at(world, 0));
     }
     EXPECT_GT(depth[1], 0.005) << material;
-    EXPECT_LT(depth[2] - depth[1], 0.6 * depth[1]) << material;
+    EXPECT_LT(depth[2] - depth[1], most * depth[1]) << material;
     EXPECT_LT(depth[3] - depth[2], depth[2] - depth[1]) << material;
     EXPECT_GT(depth[3], 0.9 * depth[1]) << material;
   }

@@ -41,18 +41,18 @@ void check_beside(const char* soil, const Shape& shape, double mass, double drop
   scene.bodies = {
       {.name = "body", .shape = shape, .mass = mass, .position = {0.01, 0.013, drop}, .above_ground = true}};
   World world = test::make_world(scene);
-  test::run_to(world, 3);
+  test::run_to(world, 5);
   const double allowed = find_preset(soil)->repose_angle_deg + kAllowed_deg;
   EXPECT_LE(steepest_deg(world, 2 * kSpacing), allowed) << soil << ": the soil touches the body there";
   const std::vector<Vec3> before(world.surface().positions.begin(), world.surface().positions.end());
-  test::run_to(world, 4);
+  test::run_to(world, 6);
   float crept = 0;
   for (std::size_t v = 0; v < before.size(); ++v)
     crept = std::max(crept, std::abs(world.surface().positions[v].z - before[v].z));
   EXPECT_LE(crept, 1e-4) << soil << ": at rest";
 
   ASSERT_TRUE(world.add_joint({.type = JointType::slider, .second = "body", .motor_speed = 2, .motor_force = 1e6}));
-  test::run_to(world, 7);
+  test::run_to(world, 9);
   EXPECT_GT(world.bodies().front().position.z, 4) << "it is gone";
   EXPECT_LE(steepest_deg(world, 0), allowed) << soil << ": after it left";
   EXPECT_EQ(test::awake(world), 0);

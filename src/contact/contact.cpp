@@ -153,8 +153,10 @@ void move_bodies(std::span<state::Body> bodies, std::span<state::HeldJoint> join
     keep_impulses(joints[j], std::span(scratch.rows).subspan(first, last - first), s.dt);
   }
   const auto leave = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t i = begin; i < end; ++i) {
+      bodies[i].way = bodies[i].position - scratch.before[i].position;
       leave_ground(bodies[i], rigid.impulse(i), scratch.before[i], s, scratch.bodies[i]);
+    }
   };
   jobs.for_ranges(bodies.size(), 4, std::ref(leave));
   for (Scratch::PerBody& own : scratch.bodies) wake_pressed(own, s, wake);

@@ -103,9 +103,10 @@ using Sectors = std::array<double, kSectors>;
 // Where a body's underside moves sideways over the ground, what it comes down explains only a part of the sinkage of a
 // column: the share of the rest.
 double pushed_share(const state::Body& body, const state::Particles& p, std::uint32_t i, double dt, Vec3d& moves) {
-  // In the middle of the step, where what rolls came down as much as the column has sunk.
-  const Vec3d arm = to_double(p.position(i)) - (body.position - 0.5 * dt * body.velocity);
-  moves = body.velocity + cross(body.angular_velocity, arm);
+  // In the middle of the step, where what rolls came down as much as the column has sunk, and by as much as the body
+  // did come down in it: what falls has lost most of its speed at the end.
+  const Vec3d arm = to_double(p.position(i)) - (body.position - 0.5 * body.way);
+  moves = Vec3d{body.velocity.x, body.velocity.y, body.way.z / dt} + cross(body.angular_velocity, arm);
   return 1 - std::min(1.0, std::max(0.0, -moves.z) * dt / p.yielded[i]);
 }
 

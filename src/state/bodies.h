@@ -43,6 +43,7 @@ struct Body {
   bool touching = false;              ///< pressed ground at the end of the last step
   double patch_width = 0;   ///< b of Bekker's law, m: radius of a round patch that it touches, smaller side of others
   double weight_share = 1;  ///< grows to 1 while it is set down, and with it, smoothly, what it has of its weight
+  Vec3d way;                ///< m, that it went in this step; at the end of an impact the velocity is another
   double impact_speed = 0;  ///< m/s, what restitution gives back a share of; 0 when nothing is owed
   /// N s and N m s, of joints and other bodies: what the next step starts from, and what the last one had
   std::array<double, 6> held_impulse{}, last_impulse{};
