@@ -74,8 +74,8 @@ void set_mesh(Scene& scene, const Doubles& vertices, const Indices& triangles) {
   scene.terrain.shape = std::move(mesh);
 }
 
-py::object raster_of(const World& world) {
-  const std::optional<RasterView> raster = world.raster();
+py::object raster_of(const World& world, double spacing) {
+  const std::optional<RasterView> raster = world.raster(spacing);
   if (!raster) return py::none();
   const std::vector<std::size_t> shape{raster->rows, raster->columns};
   const auto grid = [&](const std::vector<float>& values) {
@@ -104,12 +104,32 @@ py::array_t<T> of_each_vertex(const World& world, F value) {
   return out;
 }
 
-py::array_t<std::uint32_t> dirty_of(World& world) {
-  const std::vector<DirtyRange> ranges = world.take_dirty();
+py::array_t<std::uint32_t> array_of(const std::vector<DirtyRange>& ranges) {
   py::array_t<std::uint32_t> out({ranges.size(), std::size_t{2}});
   auto to = out.mutable_unchecked<2>();
   for (py::ssize_t k = 0; k < to.shape(0); ++k) to(k, 0) = ranges[k].first, to(k, 1) = ranges[k].second;
   return out;
+}
+
+py::dict topology_of(World& world) {
+  const Topology topology = world.take_topology();
+  const auto ids = [](const std::vector<std::uint32_t>& list) {
+    return py::array_t<std::uint32_t>(static_cast<py::ssize_t>(list.size()), list.data());
+  };
+  return py::dict(py::arg("triangles") = array_of(topology.triangles), py::arg("added") = ids(topology.added),
+                  py::arg("removed") = ids(topology.removed));
+}
+
+py::dict refinement_of(const World& world) {
+  const RefinementCounts r = world.refinement();
+  return py::dict(py::arg("on") = r.on, py::arg("edge") = r.edge, py::arg("base_vertices") = r.base_vertices,
+                  py::arg("vertices") = r.vertices, py::arg("most") = r.most, py::arg("budget") = r.budget,
+                  py::arg("halved") = r.halved, py::arg("joined") = r.joined, py::arg("short_steps") = r.short_steps);
+}
+
+JointId joint_id(const World& world, std::uint32_t index) {
+  if (index >= world.joints().size()) throw py::index_error("no joint " + std::to_string(index));
+  return {index};
 }
 
 StepReport step(World& world, std::uint64_t count) {
@@ -118,6 +138,7 @@ StepReport step(World& world, std::uint64_t count) {
     const StepReport one = world.step();
     sum.substeps += one.substeps;
     sum.substeps_limited |= one.substeps_limited;
+    sum.refinement_limited |= one.refinement_limited;
     sum.not_finite |= one.not_finite;
   }
   return sum;
@@ -127,6 +148,7 @@ void bind_results(py::module_& m) {
   py::class_<StepReport>(m, "StepReport")
       .def_readonly("substeps", &StepReport::substeps)
       .def_readonly("substeps_limited", &StepReport::substeps_limited)
+      .def_readonly("refinement_limited", &StepReport::refinement_limited)
       .def_readonly("not_finite", &StepReport::not_finite);
   py::class_<Crater>(m, "Crater")
       .def_property_readonly("position", [](const Crater& c) { return tuple_of(c.position); })
@@ -161,6 +183,11 @@ void bind_results(py::module_& m) {
       .def_readonly("max_sinkage", &BodyView::max_sinkage)
       .def_readonly("touching", &BodyView::touching)
       .def_readonly("off_terrain", &BodyView::off_terrain);
+  py::class_<JointView>(m, "Joint")
+      .def_readonly("name", &JointView::name)
+      .def_readonly("position", &JointView::position)
+      .def_readonly("speed", &JointView::speed)
+      .def_readonly("motor_force", &JointView::motor_force);
 }
 
 // Arrays of the particles that are awake, by name. Each views the world's memory until its next step.
@@ -207,6 +234,7 @@ void bind_world(py::module_& m) {
                              })
       .def_property_readonly("particles", &particles_of)
       .def_property_readonly("bodies", &World::bodies)
+      .def_property_readonly("joints", &World::joints)
       .def_property_readonly("craters", &World::craters)
       .def_property_readonly("soil_volume", &World::soil_volume)
       .def_property_readonly("energy", &World::energy)
@@ -217,6 +245,7 @@ void bind_world(py::module_& m) {
                                  out[s.name] = py::dict(py::arg("ms") = s.ms, py::arg("calls") = s.calls);
                                return out;
                              })
+      .def_property_readonly("refinement", &refinement_of)
       .def_property_readonly("state_hash", &World::state_hash)
       .def("sinkage",
            [](const World& w) { return of_each_vertex<float>(w, [&](std::uint32_t v) { return w.sinkage(v); }); })
@@ -224,8 +253,19 @@ void bind_world(py::module_& m) {
            [](const World& w) { return of_each_vertex<float>(w, [&](std::uint32_t v) { return w.pressure(v); }); })
       .def("ground_height", py::vectorize([](const World* w, double x, double y) { return w->ground_height(x, y); }),
            py::arg("x"), py::arg("y"))
-      .def("raster", &raster_of)
-      .def("take_dirty", &dirty_of)
+      .def("raster", &raster_of, py::arg("spacing") = 0.0)
+      .def("take_dirty", [](World& w) { return array_of(w.take_dirty()); })
+      .def("take_topology", &topology_of)
+      .def(
+          "set_motor",
+          [](World& w, std::uint32_t joint, double speed, double force) {
+            w.set_motor(joint_id(w, joint), speed, force);
+          },
+          py::arg("joint"), py::arg("speed"), py::arg("force"))
+      .def(
+          "set_steering",
+          [](World& w, std::uint32_t joint, double angle_deg) { w.set_steering(joint_id(w, joint), angle_deg); },
+          py::arg("joint"), py::arg("angle_deg"))
       .def("_spawn",
            [](World& w, const Scene& alone) {
              std::vector<std::uint32_t> ids;

@@ -9,6 +9,10 @@
 A scene is a dict with the keys of a scene file, or the path of one. Beyond the file, `terrain.grid.height` may be a
 function of x and y, and `terrain.mesh` a dict of the arrays `vertices` (n, 3) and `triangles` (m, 3).
 
+Where the scene asks for new triangles (`terrain.refine`), take_topology() says which came and went since the last call:
+`triangles` (n, 2), ranges [first, last) that have other corners, `added` and `removed` vertices. What came is among
+take_dirty()'s ranges too.
+
 Arrays that a world hands out (`positions`, `triangles`, `materials`, those of `particles`) are views of its memory, without
 a copy and not to be written. They are valid until the world's next step: take them anew then, or copy() what is to stay.
 """
@@ -16,12 +20,12 @@ a copy and not to be written. They are valid until the world's next step: take t
 import os
 
 from . import _divot, _toml
-from ._divot import (Body, Crater, Energy, Problem, Recorder, Report, Scene, SoilVolume, StepReport, __version__,
+from ._divot import (Body, Crater, Energy, Joint, Problem, Recorder, Report, Scene, SoilVolume, StepReport, __version__,
                      check)
 from ._error import Error
 
-__all__ = ["Body", "Crater", "Energy", "Error", "Problem", "Recorder", "Report", "Scene", "SoilVolume", "StepReport",
-           "World", "check", "load_scene", "scene", "__version__"]
+__all__ = ["Body", "Crater", "Energy", "Error", "Joint", "Problem", "Recorder", "Report", "Scene", "SoilVolume",
+           "StepReport", "World", "check", "load_scene", "scene", "__version__"]
 
 FREE, CARRIED, ANCHOR, ASLEEP = range(4)  # what particles["hold"] says: forces, a body, nothing, nothing any more
 

@@ -34,6 +34,7 @@ class Scene:
 class StepReport:
     substeps: int
     substeps_limited: bool
+    refinement_limited: bool
     not_finite: bool
 
 class Crater:
@@ -68,6 +69,28 @@ class Body:
     max_sinkage: float
     touching: bool
     off_terrain: bool
+
+class Joint:
+    name: str
+    position: float
+    speed: float
+    motor_force: float
+
+class Topology(TypedDict):
+    triangles: NDArray[np.uint32]
+    added: NDArray[np.uint32]
+    removed: NDArray[np.uint32]
+
+class Refinement(TypedDict):
+    on: bool
+    edge: float
+    base_vertices: int
+    vertices: int
+    most: int
+    budget: int
+    halved: int
+    joined: int
+    short_steps: int
 
 class Particles(TypedDict):
     vertices: NDArray[np.uint32]
@@ -123,6 +146,8 @@ class World:
     @property
     def bodies(self) -> list[Body]: ...
     @property
+    def joints(self) -> list[Joint]: ...
+    @property
     def craters(self) -> list[Crater]: ...
     @property
     def soil_volume(self) -> SoilVolume: ...
@@ -131,12 +156,17 @@ class World:
     @property
     def stages(self) -> dict[str, dict[str, float]]: ...
     @property
+    def refinement(self) -> Refinement: ...
+    @property
     def state_hash(self) -> int: ...
     def sinkage(self) -> NDArray[np.float32]: ...
     def pressure(self) -> NDArray[np.float32]: ...
     def ground_height(self, x: ArrayLike, y: ArrayLike) -> Any: ...
-    def raster(self) -> Optional[Raster]: ...
+    def raster(self, spacing: float = ...) -> Optional[Raster]: ...
     def take_dirty(self) -> NDArray[np.uint32]: ...
+    def take_topology(self) -> Topology: ...
+    def set_motor(self, joint: int, speed: float, force: float) -> None: ...
+    def set_steering(self, joint: int, angle_deg: float) -> None: ...
 
 class Recorder:
     def __init__(self, folder: str) -> None: ...

@@ -59,6 +59,37 @@ def test_dirty_ranges_name_all_that_moved():
     assert len(world.take_dirty()) == 0
 
 
+def test_topology_follows_new_triangles():
+    settings = small()
+    settings["terrain"] = {"grid": {"columns": 11, "rows": 9, "spacing": 0.4}, "material": "mud",
+                           "refine": {"min_edge": 0.1}}
+    world = divot.World(settings)
+    assert len(world.take_topology()["triangles"]) == 0
+    before = world.triangles.copy()
+    world.run(0.5)
+    topology = world.take_topology()
+    named = np.zeros(len(world.triangles), bool)
+    for first, last in topology["triangles"]:
+        named[first:last] = True
+    assert named[len(before):].all()
+    assert named[:len(before)][(world.triangles[:len(before)] != before).any(axis=1)].all()
+    assert len(topology["added"]) - len(topology["removed"]) == world.refinement["vertices"] > 0
+    assert (topology["added"] >= world.refinement["base_vertices"]).all()
+    assert world.raster()["height"].shape == (9, 11) and world.raster(0.1)["height"].shape == (33, 41)
+
+
+def test_joints_are_driven():
+    settings = small()
+    settings["bodies"][0]["above_ground"] = True
+    settings["joints"] = [{"name": "axle", "type": "hinge", "second": "ball", "axis": [0, 1, 0]}]
+    world = divot.World(settings)
+    world.set_motor(0, 3.0, 1e5)
+    world.run(0.5)
+    assert world.joints[0].name == "axle" and world.joints[0].speed == pytest.approx(3, rel=0.05)
+    with pytest.raises(IndexError):
+        world.set_steering(1, 10)
+
+
 def test_particles_are_those_awake():
     world = divot.World(small())
     world.run(0.1)
@@ -145,7 +176,7 @@ def test_stubs_name_what_is_there():
     for node in stub.body:
         if isinstance(node, ast.FunctionDef):
             assert callable(getattr(divot, node.name))
-        if not isinstance(node, ast.ClassDef) or node.name in ("Particles", "Raster"):
+        if not isinstance(node, ast.ClassDef) or node.name in ("Particles", "Raster", "Refinement", "Topology"):
             continue
         members = {n.name for n in node.body if isinstance(n, ast.FunctionDef)}
         members |= {n.target.id for n in node.body if isinstance(n, ast.AnnAssign)}

@@ -82,10 +82,7 @@ Result<Bomb> place_bomb(const World::Impl& w, Bomb bomb) {
   const Vec3d local = bomb.position - w.surface.origin;
   const state::SurfacePoint ground = state::surface_at(w.surface, w.tree.bvh, static_cast<float>(local.x),
                                                        static_cast<float>(local.y), w.region_scratch);
-  if (!ground.found)
-    return fail({.key = "bombs",
-                 .problem = fmt::format("there is no ground below ({}, {})", bomb.position.x, bomb.position.y),
-                 .expected = "a place on the terrain, or a height of its own: position = [x, y, z]"});
+  if (!ground.found) return fail(place::no_ground(w, "bombs", bomb.position));
   bomb.position.z += ground.position.z + w.surface.origin.z;
   bomb.above_ground = false;
   return bomb;
@@ -149,7 +146,8 @@ Result<BodyId> World::spawn(const BodySettings& settings) {
   place::Placed placed = place::placed(*impl_, settings, body);
   if (settings.above_ground) {
     const auto lift = place::lift(*impl_, settings, placed);
-    if (!lift) return fail(place::no_ground(settings));
+    if (!lift)
+      return fail(place::no_ground(*impl_, fmt::format("bodies.{}.position", settings.name), settings.position));
     placed.origin.z = *lift + settings.position.z;
   }
   if (const auto good = place::check_place(*impl_, settings, placed); !good) return tl::unexpected(good.error());

@@ -224,10 +224,14 @@ Result<void> check_place(const World::Impl& w, const BodySettings& body, const P
                .expected = "a place above it, or position = [x, y] for on the ground"});
 }
 
-Error no_ground(const BodySettings& body) {
-  return {.key = fmt::format("bodies.{}.position", body.name),
-          .problem = fmt::format("there is no ground below ({}, {})", body.position.x, body.position.y),
-          .expected = "a place on the terrain, or a height of its own: position = [x, y, z]"};
+Error no_ground(const World::Impl& w, std::string key, const Vec3d& place) {
+  const math::Aabb box = w.tree.bvh.boxes(0).front();
+  const Vec3d low = to_double(box.low) + w.surface.origin, high = to_double(box.high) + w.surface.origin;
+  return {.key = std::move(key),
+          .problem = fmt::format("there is no ground below ({}, {})", place.x, place.y),
+          .expected = fmt::format("a place on the terrain (x from {:.0f} to {:.0f}, y from {:.0f} to {:.0f}), or a "
+                                  "height of its own: position = [x, y, z]",
+                                  low.x, high.x, low.y, high.y)};
 }
 
 }  // namespace divot::place

@@ -33,7 +33,7 @@ bool is_set_down(const World::Impl& w, const BodySettings& body, const Placed& p
 /// What is wrong with the body's place, if anything.
 Result<void> check_place(const World::Impl& w, const BodySettings& body, const Placed& placed);
 
-/// The error of a place without ground.
-Error no_ground(const BodySettings& body);
+/// The error of a place without ground, which says where there is some.
+Error no_ground(const World::Impl& w, std::string key, const Vec3d& place);
 
 }  // namespace divot::place
