@@ -365,6 +365,8 @@ TEST_F(Output, HeadingIsTheAngleSeenFromAbove) {
   EXPECT_NEAR(output::heading_change_deg({1, 0, 0}, {-1, 0, 0}), 180, 1e-12);
   EXPECT_EQ(output::heading_change_deg({0, 0, -4}, {-1, 2, 0}), 0);
   EXPECT_EQ(output::heading_change_deg({-3, 1, 0}, {0, 0, 0}), 0);
+  EXPECT_EQ(output::heading_change_deg({0, 0, 0}, {-3, -1, 0}), 0) << "what started at rest";
+  EXPECT_EQ(output::heading_change_deg({3, 0, 0}, {-0.0005, 0, 0}), 0) << "what has come to rest";
   EXPECT_EQ(output::heading_change_deg({-3, 1, 0}, {-0.0, -0.0, 1}), 0);
 }
 

@@ -4,7 +4,8 @@
 
 namespace divot::output {
 
-/// Angle between two velocities seen from above, degrees in [0, 180]; 0 when one of them has no horizontal part.
+/// Angle between two velocities seen from above, degrees in [0, 180]; 0 where one of them is slower than 1 mm/s that
+/// way.
 double heading_change_deg(const Vec3d& from, const Vec3d& to);
 
 }  // namespace divot::output
