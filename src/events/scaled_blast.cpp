@@ -108,6 +108,53 @@ struct Landing {
   double ejecta = 0, upthrust = 0;  // m, of unit crests
 };
 
+// The crater that one of several charges would make.
+struct Part {
+  Sizes sizes;
+  double weight;                // of its lip
+  std::vector<Target> reached;  // the same vertices in all parts
+  Edge edge;
+
+  // How deep the ground fails, m; `sunk`: how far it has sunk already.
+  double depth(std::size_t i, double sunk, std::uint8_t material) const {
+    const laws::CraterSize& size = sizes.of[material];
+    return size.radius > 0 ? size.depth * laws::crater_profile(reached[i].radius, reached[i].above + sunk, size.radius)
+                           : 0;
+  }
+  // Raises what lands to its own.
+  void land(std::size_t i, const state::Blast& blast, Landing& lands) const {
+    const double end = edge.radius(reached[i]);
+    if (end == 0) return;
+    const double ratio = reached[i].radius / end;
+    lands.ejecta = std::max(lands.ejecta, weight * laws::ejecta_profile(1 + (ratio - 1) / range(blast, reached[i])));
+    if (sizes.heaves) lands.upthrust = std::max(lands.upthrust, weight * laws::upthrust_profile(ratio));
+  }
+};
+
+// All parts with all vertices that one of them reaches from the place of the first.
+std::vector<Part> parts_of(const std::vector<Charge>& charges, const state::Surface& surface, const geometry::Bvh& bvh,
+                           std::span<const laws::Medium> media, state::RegionScratch& scratch) {
+  std::vector<Sizes> sizes;
+  double reach = 0, largest = 0;
+  for (const Charge& charge : charges) {
+    const Sizes& own = sizes.emplace_back(crater_sizes(charge.burst, media));
+    const double away = length(charge.blast.ground_zero - charges.front().blast.ground_zero);
+    reach = std::max(reach, away + (own.heaves ? laws::kUpthrustEnd : 2 * laws::kEjectaEnd) * own.largest);
+    largest = std::max(largest, own.largest);
+  }
+  const std::vector<Target> reached = targets(charges.front().blast, reach, surface, bvh, scratch);
+  std::vector<Part> parts;
+  for (std::size_t k = 0; k < charges.size(); ++k) {
+    std::vector<Target> own = reached;
+    if (k > 0)
+      for (Target& t : own) t = seen(charges[k].blast, t.vertex, surface);
+    const Edge edge(sizes[k], own, surface);
+    const double weight = sizes[k].largest / largest;
+    parts.push_back({std::move(sizes[k]), weight, std::move(own), edge});
+  }
+  return parts;
+}
+
 // Heights for each m^3 that lands: the shapes of both kinds, each with its share of what leaves the crater.
 void set_heights(state::Blast& blast, const std::vector<Landing>& landing, double thrown, double heaved,
                  const state::Soil& soil) {
@@ -143,41 +190,41 @@ void push_scaled(const Burst& given, state::Blast& blast, std::span<state::Blast
   blast.ground_zero -= static_cast<float>(sunk) * blast.direction;
   burst.height -= sunk;
   blast.height = burst.height;
-  const double alone = crater_sizes(burst, media).largest;
-  if (alone == 0) return;
-  company.join(burst, blast, alone);
-  const Sizes sizes = crater_sizes(burst, media);
-  blast.radius = sizes.largest;
-  if (sizes.largest == 0) return;
+  blast.radius = crater_sizes(burst, media).largest;
+  if (blast.radius == 0) return;
+  std::vector<Charge> charges = company.diggers({burst, blast}, blast.radius);
+  const std::size_t diggers = charges.size();
+  blast.pulse = charges.back().blast.pulse;  // what flows in several has one drag
+  for (Charge& other : company.at_once(charges.front(), blast.radius)) charges.push_back(std::move(other));
 
-  break_crusts(burst, blast, surface, bvh, media, scratch);
-  const double reach = (sizes.heaves ? laws::kUpthrustEnd : 2 * laws::kEjectaEnd) * sizes.largest;
-  const std::vector<Target> reached = targets(blast, reach, surface, bvh, scratch);
-  const Edge edge(sizes, reached, surface);
+  for (std::size_t k = 0; k < diggers; ++k)
+    break_crusts(charges[k].burst, charges[k].blast, surface, bvh, media, scratch);
+  const std::vector<Part> parts = parts_of(charges, surface, bvh, media, scratch);
   double thrown = 0, heaved = 0;
   std::vector<Landing> landing;
-  for (const Target& t : reached) {
-    const laws::CraterSize& size = sizes.of[surface.material[t.vertex]];
-    const double above = t.above + company.sunk(t.vertex);
-    const double deep = size.radius > 0 ? size.depth * laws::crater_profile(t.radius, above, size.radius) : 0;
+  for (std::size_t i = 0; i < parts.front().reached.size(); ++i) {
+    const std::uint32_t vertex = parts.front().reached[i].vertex;
+    const std::uint8_t material = surface.material[vertex];
+    double deep = 0;
+    for (std::size_t k = 0; k < diggers; ++k) deep = std::max(deep, parts[k].depth(i, company.sunk(vertex), material));
     if (deep > 0) {
-      const std::uint32_t column = state::touch_column(surface, soil, t.vertex);
-      const double leaves = sizes.leaves[surface.material[t.vertex]];
+      const std::uint32_t column = state::touch_column(surface, soil, vertex);
+      const Sizes& sizes = parts[diggers - 1].sizes;
+      // What the others threw there goes on.
+      const double lip_share = sizes.of[material].lip_share, leaves = sizes.leaves[material],
+                   raised = company.raised(vertex);
       // A push falling to 0 over the time P against a relaxation time 2 P ends push P^2 deep.
       blast.column.push_back(column);
-      blast.push.push_back(static_cast<float>(deep / (blast.pulse * blast.pulse)));
-      blast.thrown.push_back(static_cast<float>(leaves));
-      thrown += size.lip_share * deep * soil.area[column];
-      heaved += (leaves - size.lip_share) * deep * soil.area[column];
+      blast.push.push_back(static_cast<float>((deep + raised) / (blast.pulse * blast.pulse)));
+      blast.thrown.push_back(static_cast<float>((leaves * deep + raised) / (deep + raised)));
+      thrown += (lip_share * deep + raised) * soil.area[column];
+      heaved += (leaves - lip_share) * deep * soil.area[column];
       continue;
     }
-    const double end = edge.radius(t);
-    if (end == 0) continue;
-    const double ratio = t.radius / end;
-    const Landing lands{laws::ejecta_profile(1 + (ratio - 1) / range(blast, t)),
-                        sizes.heaves ? laws::upthrust_profile(ratio) : 0};
+    Landing lands;
+    for (const Part& part : parts) part.land(i, blast, lands);
     if (lands.ejecta == 0 && lands.upthrust == 0) continue;
-    blast.landing.push_back(state::touch_column(surface, soil, t.vertex));
+    blast.landing.push_back(state::touch_column(surface, soil, vertex));
     landing.push_back(lands);
   }
   set_heights(blast, landing, thrown, heaved, soil);

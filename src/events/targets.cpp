@@ -15,14 +15,20 @@ std::vector<Target> targets(const state::Blast& blast, double reach, const state
   state::vertices_near(surface, bvh, box, scratch, vertices);
   std::vector<Target> found;
   for (const std::uint32_t v : vertices) {
-    const Vec3 p = surface.position[v], offset = p - blast.ground_zero;
-    const double above = -dot(offset, blast.direction);
-    const double radius = std::sqrt(std::max(0.0, static_cast<double>(dot(offset, offset)) - above * above));
+    const Vec3 p = surface.position[v];
+    const Target t = seen(blast, v, surface);
     // What lies behind a rigid face is shielded.
-    if (radius <= reach && !state::rigid_between(surface, p.x, p.y, blast.ground_zero.z, p.z, scratch))
-      found.push_back({v, radius, above, offset.x, offset.y});
+    if (t.radius <= reach && !state::rigid_between(surface, p.x, p.y, blast.ground_zero.z, p.z, scratch))
+      found.push_back(t);
   }
   return found;
+}
+
+Target seen(const state::Blast& blast, std::uint32_t vertex, const state::Surface& surface) {
+  const Vec3 offset = surface.position[vertex] - blast.ground_zero;
+  const double above = -dot(offset, blast.direction);
+  const double radius = std::sqrt(std::max(0.0, static_cast<double>(dot(offset, offset)) - above * above));
+  return {vertex, radius, above, offset.x, offset.y};
 }
 
 Vec3 into_ground(const state::Surface& surface, const std::vector<Target>& reached) {

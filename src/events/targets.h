@@ -21,6 +21,9 @@ struct Target {
 std::vector<Target> targets(const state::Blast& blast, double reach, const state::Surface& surface,
                             const geometry::Bvh& bvh, state::RegionScratch& scratch);
 
+/// A vertex as a blast sees it, in reach or not.
+Target seen(const state::Blast& blast, std::uint32_t vertex, const state::Surface& surface);
+
 /// The ground faces a blast with the mean slope of what it reaches, so that one bump under the bomb does not turn the
 /// crater. Unit, into the ground.
 Vec3 into_ground(const state::Surface& surface, const std::vector<Target>& reached);

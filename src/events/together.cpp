@@ -16,6 +16,13 @@ double depth_of(const state::Blast& blast, std::size_t k) {
   return static_cast<double>(blast.push[k]) * blast.pulse * blast.pulse;
 }
 
+// Place of a vertex's column in a list that ascends by vertex, kNone where it is not in it.
+std::uint32_t place_of(const std::vector<std::uint32_t>& columns, std::uint32_t vertex, const state::Soil& soil) {
+  const auto at = std::lower_bound(columns.begin(), columns.end(), vertex,
+                                   [&](std::uint32_t c, std::uint32_t v) { return soil.vertex[c] < v; });
+  return at != columns.end() && soil.vertex[*at] == vertex ? static_cast<std::uint32_t>(at - columns.begin()) : kNone;
+}
+
 // Calls with the places of the columns that two ascending lists have in common.
 template <class Call>
 void for_common(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b, const state::Soil& soil,
@@ -26,6 +33,12 @@ void for_common(const std::vector<std::uint32_t>& a, const std::vector<std::uint
     else
       soil.vertex[a[i]] < soil.vertex[b[k]] ? ++i : ++k;
   }
+}
+
+bool meet(const state::Blast& a, const state::Blast& b, const state::Soil& soil) {
+  bool common = false;
+  for_common(a.column, b.column, soil, [&](std::size_t, std::size_t) { common = true; });
+  return common;
 }
 
 // Nothing lands on ground that the other blast digs; the rest lies the higher.
@@ -54,10 +67,7 @@ double Company::sunk(std::uint32_t vertex) const {
   double most = 0;
   for (const state::Blast* other : others_) {
     if (other->start == blast_.start) continue;  // nothing moved yet
-    const auto at = std::lower_bound(other->column.begin(), other->column.end(), vertex,
-                                     [&](std::uint32_t c, std::uint32_t v) { return soil_.vertex[c] < v; });
-    if (at != other->column.end() && *at == column)
-      most += depth_of(*other, static_cast<std::size_t>(at - other->column.begin()));
+    if (const std::uint32_t at = place_of(other->column, vertex, soil_); at != kNone) most += depth_of(*other, at);
   }
   return std::clamp(static_cast<double>(dot(way, blast_.direction)), 0.0, most);
 }
@@ -75,23 +85,51 @@ double Company::ground_zero_sunk() const {
   return nearest == kNone ? 0 : sunk(nearest);
 }
 
-void Company::join(Burst& burst, state::Blast& blast, double radius) const {
-  const Vec3 place = blast.ground_zero;
-  double yields = burst.yield, heights = burst.yield * burst.height, pulse = blast.pulse;
+double Company::raised(std::uint32_t vertex) const {
+  const std::uint32_t column = surface_.column[vertex];
+  if (column == kNone) return 0;
+  const bool landed = std::any_of(others_.begin(), others_.end(), [&](const state::Blast* other) {
+    const auto at = place_of(other->landing, vertex, soil_);
+    return other->start < blast_.start && at != kNone && other->landing_height[at] > 0;
+  });
+  const Vec3 way = surface_.position[vertex] - soil_.original[column];
+  return landed ? std::max(0.0, -static_cast<double>(dot(way, blast_.direction))) : 0;
+}
+
+double Company::share(const state::Blast& other, const Charge& own, double radius) const {
+  const Vec3 offset = other.ground_zero - own.blast.ground_zero;
+  const double up = dot(offset, own.blast.direction);
+  const double apart = std::sqrt(std::max(0.0, static_cast<double>(dot(offset, offset)) - up * up));
+  const double common = laws::overlap(other.radius, radius, apart);
+  return common * (2 - common);
+}
+
+std::vector<Charge> Company::diggers(const Charge& own, double radius) const {
+  std::vector<Charge> charges = {own};
+  Charge all = own;
+  double yields = 0, heights = 0, most = 0;
   Vec3 offsets;
   for (const state::Blast* other : others_) {
-    const Vec3 offset = other->ground_zero - place;
-    const double up = dot(offset, blast.direction);
-    const double apart = std::sqrt(std::max(0.0, static_cast<double>(dot(offset, offset)) - up * up));
-    const double share = laws::overlap(other->radius, radius, apart) * other->yield;
-    if (share == 0) continue;
-    yields += share, heights += share * other->height;
-    offsets += static_cast<float>(share) * offset;
-    pulse = std::max(pulse, other->pulse);
+    const double part = share(*other, own, radius), counts = part * other->yield;
+    yields += counts, heights += counts * other->height;
+    offsets += static_cast<float>(counts) * (other->ground_zero - own.blast.ground_zero);
+    if (part > 0) all.blast.pulse = std::max(all.blast.pulse, other->pulse);
+    most = std::max(most, part);
   }
-  blast.ground_zero = place + static_cast<float>(1 / yields) * offsets;
-  blast.pulse = pulse;  // what flows in both has one drag
-  burst.yield = yields, burst.height = heights / yields;
+  if (most == 0) return charges;
+  yields += most * own.burst.yield, heights += most * own.burst.yield * own.burst.height;
+  all.blast.ground_zero += static_cast<float>(1 / yields) * offsets;
+  all.burst.yield = yields, all.burst.height = heights / yields;
+  charges.push_back(all);
+  return charges;
+}
+
+std::vector<Charge> Company::at_once(const Charge& own, double radius) const {
+  std::vector<Charge> charges;
+  for (const state::Blast* other : others_)
+    if (other->start == own.blast.start && share(*other, own, radius) > 0)
+      charges.push_back({{other->yield, other->height, own.burst.gravity}, *other});
+  return charges;
 }
 
 void share_ground(state::Blast& blast, std::span<state::Blast> earlier, const state::Soil& soil) {
@@ -106,6 +144,9 @@ void share_ground(state::Blast& blast, std::span<state::Blast> earlier, const st
     land_beside(other, blast, soil);
     land_beside(blast, other, soil);
   }
+  for (state::Blast& other : earlier)
+    if (still_digs(other) && other.start == blast.start && meet(blast, other, soil))
+      other.landing = blast.landing, other.landing_height = blast.landing_height;
 }
 
 }  // namespace divot::events

@@ -11,9 +11,14 @@
 
 namespace divot::events {
 
-/// The blasts before a new one whose ground does not rest yet. Their craters are not there for it to find, nor does it
-/// make one of its own in them: of what both would break, energies add up and not depths. A crater at rest is ground
-/// like any other.
+/// A charge, and the blast's place with it.
+struct Charge {
+  Burst burst;
+  state::Blast blast;  ///< where it is, and its pulse
+};
+
+/// The blasts before a new one whose ground does not rest yet. Their craters are not there for it to find: of what both
+/// would break, energies add up and not depths. A crater at rest is ground like any other.
 class Company {
  public:
   Company(const state::Blast& blast, std::span<const state::Blast> earlier, const state::Surface& surface,
@@ -25,11 +30,19 @@ class Company {
   /// How far the ground zero of the new one sank. [O(pushed)]
   double ground_zero_sunk() const;
 
-  /// Makes of the new burst, whose own crater has `radius`, that of all charges together: each of the others counts by
-  /// the share of its broken ground that both break; yields add up, and place and height are their mean.
-  void join(Burst& burst, state::Blast& blast, double radius) const;
+  /// How far what the others threw has raised the ground at a vertex, m. [O(others log landing)]
+  double raised(std::uint32_t vertex) const;
+
+  /// The charges that dig the crater of the new one, whose own has `radius`: itself and, with others, the common charge
+  /// of all that break the same ground. Each counts in it by the share of its broken ground that two break; yields add
+  /// up, and place and height are their mean, so that it does not matter which comes first.
+  std::vector<Charge> diggers(const Charge& own, double radius) const;
+  /// Those of the others that go off at the same moment and break ground of its: all throw on one common lip.
+  std::vector<Charge> at_once(const Charge& own, double radius) const;
 
  private:
+  double share(const state::Blast& other, const Charge& own, double radius) const;
+
   const state::Blast& blast_;
   const state::Surface& surface_;
   const state::Soil& soil_;
@@ -37,7 +50,7 @@ class Company {
 };
 
 /// Of ground that both push, the new blast digs what is left to do, and all that leaves it is the new one's to throw.
-/// What one throws does not land where the other digs.
+/// What one throws does not land where the other digs, and those that go off at one moment throw on the same lip.
 void share_ground(state::Blast& blast, std::span<state::Blast> earlier, const state::Soil& soil);
 
 }  // namespace divot::events
