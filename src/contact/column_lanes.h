@@ -2,7 +2,7 @@
 // media goes to the plain kernel.
 
 #include "contact/column_terms.h"
-#include "math/double_lanes.h"
+#include "math/lanes.h"
 
 namespace divot::contact::DIVOT_LANES {
 

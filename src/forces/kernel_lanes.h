@@ -5,7 +5,6 @@
 namespace divot::forces::DIVOT_LANES {
 
 using math::DIVOT_LANES::gather;
-using math::DIVOT_LANES::IntVector;
 using math::DIVOT_LANES::Lanes;
 using math::DIVOT_LANES::load;
 using math::DIVOT_LANES::Mask;

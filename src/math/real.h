@@ -5,9 +5,9 @@
 #include <cstdint>
 
 // What the laws need of a number beyond + - * /, for one float or double. math/lanes.h has the same for eight floats
-// side by side and math/double_lanes.h for four doubles, so that one text of a law serves all: it says
-// `using math::select;` and calls select(...). Powers and exponentials are polynomials of our own, because their bits
-// must not depend on how wide the registers are, nor on the system's library.
+// or four doubles side by side, so that one text of a law serves all: it says `using math::select;` and calls
+// select(...). Powers and exponentials are polynomials of our own, because their bits must not depend on how wide the
+// registers are, nor on the system's library.
 namespace divot::math {
 
 /// For templates that lanes go through: what is not inlined takes its vectors through memory.

@@ -4,7 +4,6 @@
 
 namespace divot::settle::DIVOT_LANES {
 
-using math::DIVOT_LANES::either;
 using math::DIVOT_LANES::Lanes;
 using math::DIVOT_LANES::load;
 using math::DIVOT_LANES::Mask;
