@@ -168,6 +168,25 @@ TEST(Slump, CohesiveSoilStandsUpToItsCriticalHeight) {
   EXPECT_GT(laws::critical_height(laws::make_medium(*find_preset("asphalt")), 9.81), 100);
 }
 
+// News of what lies below go from vertex to vertex: where the ground goes up and down they must not add up on their way
+// round, or a rut in mud falls in that is a tenth as deep as mud stands.
+TEST(Slump, NoGroundIsFoundToFallFurtherThanItEverDid) {
+  Slope s({.columns = 31, .rows = 31, .spacing = 0.1}, "mud");
+  test::Random random(3);
+  float lowest = 0, highest = 0, most = 0;
+  for (int k = 0; k < 400; ++k) {
+    // A hole that wanders to and fro, and a heap behind it.
+    const float x = std::sin(0.1f * static_cast<float>(k)), y = random.in(-0.1f, 0.1f);
+    for (const float beside : {-0.1f, 0.0f, 0.1f}) s.dig(s.nearest(x, y + beside), 0.002);
+    for (const float beside : {-0.1f, 0.0f, 0.1f}) s.pour(s.nearest(x - 0.3f, y + beside), 0.002);
+    s.step(1.0 / 60);
+    for (const Vec3& p : s.surface.position) lowest = std::min(lowest, p.z), highest = std::max(highest, p.z);
+    for (const float excess : s.soil.excess) most = std::max(most, excess);
+  }
+  EXPECT_GT(most, 0.3f * (highest - lowest));
+  EXPECT_LE(most, highest - lowest + 0.02f);
+}
+
 TEST(Slump, GivesTheSameBitsOnAnyNumberOfThreads) {
   const auto heap = [](int threads) {
     Slope s({.columns = 61, .rows = 61, .spacing = 0.1}, "dry_sand", threads);

@@ -72,6 +72,7 @@ struct Mover {
     // A blast loosens what it makes flow; any other load packs what lay loose.
     float& loose = ground.soil.loose[p.column[i]];
     const float sunk = place.z - p.z[i];
+    ground.soil.lift_excess(p.column[i], -sunk);
     loose = std::max(0.0f, p.flow_rate[i] > 0 ? loose + std::abs(sunk) : loose - std::max(0.0f, sunk));
     return squared;
   }

@@ -21,6 +21,7 @@ float bring(Ground& ground, std::uint32_t column, double volume, double area) {
   soil.gained[column] += volume;
   soil.compacted[column] += volume - rose;
   soil.rest[column].z += height;
+  soil.lift_excess(column, height);
   const float loose = std::max(0.0f, soil.loose[column] + height), more = loose - soil.loose[column];
   soil.loose[column] = loose;
   // Loose soil bears nothing: Bekker's curve goes on where it was left once what lies on top is pressed away.

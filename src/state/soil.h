@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -32,6 +33,11 @@ struct Soil {
   std::vector<float> excess;  ///< [column] fall beyond the slope of rest of the steep ground below, m; settle/
   std::vector<std::uint32_t> restless;  ///< vertices round which the ground may be too steep, ascending; settle/
   std::size_t size() const { return vertex.size(); }
+
+  /// A column's ground rises by so much, m, or sinks: what it would lie at without cohesion stays where it is.
+  void lift_excess(std::uint32_t c, float rises) {
+    if (excess[c] > 0) excess[c] = std::max(0.0f, excess[c] + rises);
+  }
 
   /// Height at which the soil would stand had it never been pressed, m: sinkage z of Bekker's law counts from here.
   float fresh_height(std::uint32_t c) const { return rest[c].z + plastic[c]; }
