@@ -93,6 +93,7 @@ py::object raster_of(const World& world, double spacing) {
   out["extent"] = py::make_tuple(raster->x0 - raster->dx / 2, raster->x0 + raster->dx * (raster->columns - 0.5),
                                  raster->y0 - raster->dy * (raster->rows - 0.5), raster->y0 + raster->dy / 2);
   out["crs"] = raster->crs;
+  out["file_crs"] = raster->file_crs;
   return out;
 }
 

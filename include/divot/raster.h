@@ -15,6 +15,7 @@ struct RasterView {
   double dx = 0;               ///< m, > 0, size of a pixel: x grows with the column
   double dy = 0;               ///< m, > 0, likewise: y falls with the row
   std::string crs;             ///< WKT of the coordinates; empty when unknown
+  std::string file_crs;        ///< WKT of the model in degrees that the terrain is from, as GeoTIFFs are; else empty
   std::vector<float> heights;  ///< [row * columns + column] m, row 0 northernmost
   std::vector<float>
       change;  ///< [row * columns + column] m, height less that at the start: what was raised is positive

@@ -110,6 +110,7 @@ class Raster(TypedDict):
     transform: Tuple[float, float, float, float, float, float]
     extent: Tuple[float, float, float, float]
     crs: str
+    file_crs: str
 
 class World:
     def __init__(self, scene: Union[Mapping[str, Any], Path, Scene], threads: int = ...,

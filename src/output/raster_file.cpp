@@ -1,11 +1,13 @@
 #include "output/raster_file.h"
 
 #include <cpl_conv.h>
+#include <gdalwarper.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "core/assert.h"
@@ -17,12 +19,16 @@ namespace {
 
 constexpr int kSteps = 65534;  // from 1 to 65535; 0 is for holes
 
-GDALDatasetUniquePtr create(const char* driver_name, const std::string& path, const RasterView& raster,
-                            GDALDataType type, const CPLStringList& options) {
+GDALDatasetUniquePtr create(const char* driver_name, const std::string& path, int columns, int rows, GDALDataType type,
+                            const CPLStringList& options) {
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_name);
   if (driver == nullptr) return nullptr;
-  return GDALDatasetUniquePtr(driver->Create(path.c_str(), static_cast<int>(raster.columns),
-                                             static_cast<int>(raster.rows), 1, type, options.List()));
+  return GDALDatasetUniquePtr(driver->Create(path.c_str(), columns, rows, 1, type, options.List()));
+}
+
+GDALDatasetUniquePtr create(const char* driver_name, const std::string& path, const RasterView& raster,
+                            GDALDataType type, const CPLStringList& options) {
+  return create(driver_name, path, static_cast<int>(raster.columns), static_cast<int>(raster.rows), type, options);
 }
 
 // Where the pixels lie and what they mean.
@@ -49,6 +55,33 @@ bool write_pixels(GDALRasterBand& band, const RasterView& raster, F pixel) {
     }
   }
   return true;
+}
+
+// The same in another coordinate system, on pixels about as large, to a driver's file.
+GDALDatasetUniquePtr reproject(GDALDataset& from, const std::string& wkt, double nodata, const char* driver_name,
+                               const std::string& path, const CPLStringList& options) {
+  constexpr double kMostError = 0.01;  // pixels that GDAL may be off where it interpolates the transformation
+  CPLStringList target;
+  target.SetNameValue("DST_SRS", wkt.c_str());
+  const std::unique_ptr<void, void (*)(void*)> transformer(
+      GDALCreateGenImgProjTransformer2(&from, nullptr, target.List()), GDALDestroyGenImgProjTransformer);
+  std::array<double, 6> transform{};
+  int columns = 0, rows = 0;
+  if (!transformer || GDALSuggestedWarpOutput(&from, GDALGenImgProjTransform, transformer.get(), transform.data(),
+                                              &columns, &rows) != CE_None) {
+    return nullptr;
+  }
+  GDALDatasetUniquePtr to = create(driver_name, path, columns, rows, GDT_Float32, options);
+  if (!to) return nullptr;
+  to->SetGeoTransform(transform.data());
+  to->SetProjection(wkt.c_str());
+  GDALRasterBand& band = *to->GetRasterBand(1);
+  band.SetNoDataValue(nodata);
+  band.SetUnitType("m");
+  if (band.Fill(nodata) != CE_None) return nullptr;
+  const CPLErr status =
+      GDALReprojectImage(&from, nullptr, to.get(), nullptr, GRA_Bilinear, 0, kMostError, nullptr, nullptr, nullptr);
+  return status == CE_None ? std::move(to) : nullptr;
 }
 
 tl::unexpected<Errors> fail_write(const std::string& path, const core::GdalSession& session) {
@@ -86,12 +119,16 @@ Result<void> write_geotiff(const std::string& path, const RasterView& raster, st
   options.SetNameValue("BIGTIFF", "IF_SAFER");
   bool ok = false;
   {
-    const GDALDatasetUniquePtr file = create("GTiff", target->temporary(), raster, GDT_Float32, options);
+    const bool degrees = !raster.file_crs.empty();
+    const GDALDatasetUniquePtr file = degrees ? create("MEM", "", raster, GDT_Float32, {})
+                                              : create("GTiff", target->temporary(), raster, GDT_Float32, options);
     if (file) {
       describe(*file, raster, kNodata);
       ok = write_pixels(*file->GetRasterBand(1), raster,
                         [&](std::size_t k) { return raster.holes[k] ? kNodata : values[k]; });
     }
+    if (ok && degrees)
+      ok = reproject(*file, raster.file_crs, kNodata, "GTiff", target->temporary(), options) != nullptr;
   }
   if (!ok || session.failed()) return fail_write(path, session);
   return target->commit();

@@ -115,6 +115,7 @@ RasterView resample(const state::Surface& surface, const state::Soil& soil, doub
                  .dx = grid.dx / across,
                  .dy = grid.dy / up,
                  .crs = grid.crs,
+                 .file_crs = grid.file_crs,
                  .heights = std::vector<float>(pixels),
                  .change = std::vector<float>(pixels),
                  .sinkage = std::vector<float>(pixels),

@@ -22,6 +22,7 @@ struct Raster {
   double x0 = 0, y0 = 0;  ///< of column 0, row 0, in the terrain's coordinates, m
   double dx = 0, dy = 0;  ///< spacing, m, > 0
   std::string crs;        ///< WKT; empty when unknown
+  std::string file_crs;   ///< WKT of a model in degrees; empty: the same
 };
 
 /// What of a mesh's surface does not face up, undersides and upright faces: nothing deforms it, bodies bump into it.

@@ -136,13 +136,16 @@ HeightField to_field(const DemPixels& pixels) {
 }  // namespace
 
 Result<HeightField> to_metres(const DemTerrain& dem, DemPixels pixels, std::uint64_t max_vertices) {
+  const std::string degrees = pixels.crs.IsGeographic() ? wkt_of(pixels.crs) : "";
   auto flat = to_north_up(dem, std::move(pixels), max_vertices);
   if (!flat) return tl::unexpected(flat.error());
   const auto& t = flat->transform;
   if (!(std::abs(t[1]) > 0) || !(std::abs(t[5]) > 0) || !std::isfinite(t[0] + t[1] + t[3] + t[5])) {
     return fail(dem_error(dem, fmt::format("pixels of {} x {} m", t[1], t[5]), "expected pixels with a size"));
   }
-  return to_field(*flat);
+  HeightField field = to_field(*flat);
+  field.raster.file_crs = degrees;
+  return field;
 }
 
 }  // namespace divot::terrain
