@@ -35,7 +35,7 @@ constexpr std::array kFormats{
            .write = [](const std::string& path,
                        const Frame& f) { return write_surface_csv(path, f.surface(), f.sinkage); }},
     Format{.name = "tif",
-           .meaning = "GeoTIFF of height in the coordinates of the terrain",
+           .meaning = "GeoTIFF of height in the coordinates of the terrain, of a `dem` in degrees in the DEM's own",
            .raster = true,
            .write = [](const std::string& path,
                        const Frame& f) { return write_geotiff(path, *f.raster, f.raster->heights); }},
