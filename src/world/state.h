@@ -5,6 +5,7 @@
 
 #include "activation/activation.h"
 #include "contact/contact.h"
+#include "core/id_set.h"
 #include "core/timers.h"
 #include "divot/world.h"
 #include "events/events.h"
